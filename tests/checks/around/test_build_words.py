@@ -225,7 +225,7 @@ def test_a_package_that_is_started_is_added_to_the_dependencies(tmp_path: Path) 
     package = package_with(tmp_path / "robot", MANIFEST, TF, "")
     (problem,) = check(package)
     assert problem.severity == "info"
-    assert "start programs of tf2_ros (a.launch.py line 9)" in problem.message
+    assert "launch files use tf2_ros (a.launch.py line 9)" in problem.message
     assert undone(package, problem, MANIFEST) == []
 
 
@@ -286,3 +286,16 @@ def test_a_plugin_reads_parameters_that_the_package_has(tmp_path: Path) -> None:
     model.write_text(right.replace("controllers.yaml", "controlers.yaml"))
     (problem,) = [p for p in check(model) if "does not have" in p.message]
     assert edited_files(problem.edits)[str(model)].decode() == right
+
+
+def test_a_package_of_python_that_is_misspelt(tmp_path: Path) -> None:
+    right = IN_PYTHON[SETUP]
+    assert "packages=['robot']," in right
+    needed = "packages=['robot'],\n    install_requires=['setuptools'],"
+    wrong = needed.replace("setuptools", "setupptools")
+    package = package_with(tmp_path / "robot", SETUP, "packages=['robot'],", wrong)
+    (problem,) = check(package)
+    assert "setupptools, which is no package of Python" in problem.message
+    assert undone(package, problem, SETUP) == []
+    text = (package / SETUP).read_text()
+    assert text == right.replace("packages=['robot'],", needed)

@@ -34,6 +34,7 @@ Visualization Manager:
       Description Source: Topic
       Enabled: true
       Links:
+        All Links Enabled: true
         Visual Enable: {Alpha: 1}
       Name: RobotModel
       TF Prefix: ""
@@ -72,6 +73,7 @@ def package(tmp_path: Path) -> Path:
         ("Value: /map", "Vlaue: /map", "config-property"),
         ("Depth: 5", "Dept: 5", "config-property"),
         ("Class: rviz_default_plugins/Map", "Cllass: rviz_default_plugins/Map", NAME),
+        ("All Links Enabled", "All Links Enbaled", NAME),
         ("    Fixed Frame", "    Fxed Frame", NAME),
         ("      Enabled: true\n      Topic", "      Topic", NAME),
         ("Enabled: true\n      L", "Enabled: ture\n      L", "config-value"),

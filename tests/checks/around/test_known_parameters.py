@@ -114,6 +114,12 @@ def test_right_parameters_have_no_finding(tmp_path: Path) -> None:
         ),
         (
             "error",
+            "stateful: true\n      xy_goal_tolerance: 0.25",
+            "stateful: 0.25\n      xy_goal_tolerance: true",
+            "each has the type of the other",
+        ),
+        (
+            "error",
             "nav2_amcl::DifferentialMotionModel",
             "differential",
             "has no plugin",

@@ -107,6 +107,8 @@ def test_what_is_right_is_left_alone(package: Path) -> None:
         ("'/launch', '/gz_sim", "'launch', 'gz_sim", "without a slash"),
         ('"control"', '"cotnrol"', "ros2 has no command cotnrol, but control"),
         ('"load_', '"laod_', "ros2 control has no command laod_controller"),
+        ("'spawner'", "'spawner.py'", "both spawner.py and spawner"),
+        ("'/launch', '/gz", "'/lanch', '/gz", "ros_gz_sim has no lanch/gz_sim"),
         ("('cmd_vel'", "('cmdvel'", "uses no name cmdvel, but cmd_vel"),
         ("n('model')\n", "n(model)\n", "model is used here, but gets its first"),
         ("5.0", "'5s'", "the period '5s' is not a number of seconds"),
@@ -137,6 +139,7 @@ def test_what_launch_takes_otherwise(
     good = good.replace('"-r "', "'-r '").replace('"/launch", "/gz', "'/launch', '/gz")
     good = good.replace('sim.launch.py"', "sim.launch.py'")
     good = good.replace('n("model")\n', "n('model')\n")
+    good = good.replace('e="spawner",\n', "e='spawner',\n")
     launch.write_text(good.replace(right, wrong, 1))
     assert launch.read_text() != good
 
@@ -168,6 +171,38 @@ def test_parts_of_a_path_in_a_misspelt_call_need_no_slash(package: Path) -> None
     launch.write_text(PYTHON.replace(right, path))
     (problem,) = check(package)
     assert "neither imported nor defined" in problem.message
+
+
+def test_a_node_in_xml_without_a_description(package: Path) -> None:
+    launch = package / "launch" / "all.launch.py"
+    launch.unlink()
+    launch = launch.with_suffix(".xml")
+    launch.write_text(
+        '<launch><node pkg="robot_state_publisher" exec="robot_state_publisher">\n'
+        '<param name="description" value="$(command \'xacro r.urdf\')"/>\n'
+        "</node></launch>"
+    )
+    (problem,) = check(package)
+    assert (problem.line, problem.code) == (2, "launch-description")
+    right = apply_edits(problem.edits, launch.read_text())
+    assert '<param name="robot_description" value=' in right
+
+
+def test_the_end_of_a_file_that_is_almost_another(package: Path) -> None:
+    (package / "launch" / "a.yaml").write_text("a: 1\n")
+    launch = package / "launch" / "all.launch.py"
+    text = PYTHON.replace('"model"),', '"model", default_value=[world, "b.ymal"]),')
+    launch.write_text(text)
+    (problem,) = check(package)
+    assert "no file here ends with .ymal" in problem.message
+    assert apply_edits(problem.edits, text) == text.replace("ymal", "yaml")
+
+
+def test_a_name_that_nothing_reads_is_the_wrong_one(package: Path) -> None:
+    launch = package / "launch" / "all.launch.py"
+    launch.write_text(PYTHON.replace("    first =", "    firrst ="))
+    (problem,) = check(package)
+    assert apply_edits(problem.edits, launch.read_text()) == PYTHON
 
 
 def test_a_command_in_xml_without_a_blank(package: Path) -> None:

@@ -118,6 +118,7 @@ def found(package: Path, file: str, right: str, wrong: str) -> Problem:
             "  ros__parameters:\n  debug: true\n  kind: tree\n  radius",
             "debug is beside ros__parameters (line 2), not below it",
         ),
+        (MAP, "trinary", "triary", "a map has no mode triary"),
         (MAP, "image: map", "image: maps", "has the image maps.pgm, which is not"),
         (MAP, "negate:", "neagte:", "this map has no negate"),
     ],

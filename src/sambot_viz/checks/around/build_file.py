@@ -316,9 +316,12 @@ def project_name(around: Surroundings) -> Iterator[Problem]:
     here = cmake.place(project.line)
     other = Place(around.files.shown("package.xml"), line)
     used = _used_names(around)
-    if project.text in used and name not in used:
+    in_folder = around.files.folder.name == project.text
+    if (project.text in used or in_folder) and name not in used:
         place, second = other, here
-        says = f"package.xml calls the package {name}, but files of it are used from "
+        says = f"package.xml calls the package {name}, but "
+        is_used = project.text in used
+        says += "files of it are used from " if is_used else "its folder is called "
         says += f"{project.text}, as CMakeLists.txt calls it"
         hint = write(
             place, name or "", project.text, hint=f"write <name>{project.text}</name>"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
@@ -21,7 +22,7 @@ _LIKENESS = 0.8
 
 def _started() -> set[str]:
     """Packages that launch files often start."""
-    return {name for name, mark in vocabulary("packages").items() if mark}
+    return {name for name, words in vocabulary("packages").items() if "starts" in words}
 
 
 def _depends(around: Surroundings) -> list[Element]:
@@ -93,18 +94,21 @@ def missing_dependencies(around: Surroundings) -> Iterator[Problem]:
     """
     root, depends = around.manifest, _depends(around)
     named = {element.text.strip() for element in root.children} if root else set[str]()
-    started: dict[str, Place] = {}
-    for launch in around.launches:
-        for call in launch.called():
-            started.setdefault(launch.text(call, "package") or "", call.place)
-        if any(text.startswith("xacro ") for text in launch.strings):
-            started.setdefault("xacro", Place(launch.shown, 1))
-    for element in (e for root in around.files.frontends for e in root.iter()):
-        if element.get("exec") is not None:
-            started.setdefault(element.get("pkg") or "", element.place)
-    known = _started()
-    missing = sorted(started.keys() & known - named - {*_meant(around).values()})
-    if missing and len(named & started.keys() & known) > 1:
+    started = _starts(around)
+    # Two packages that depend on each other cannot be built.
+    own = around.files.name
+    others = {
+        p.name
+        for p in around.files.used
+        if p.folder != around.files.folder
+        and own not in p.uses
+        and own not in _brought(around, {p.name})
+    }
+    known = _started() | others
+    listed_here = named & started.keys() & known
+    near = {*_meant(around).values()}
+    missing = sorted(started.keys() & known - _brought(around, named) - near)
+    if missing and len(listed_here) + (len(missing) == 1) > 1:
         here = _place(depends[-1], around)
         lines = [f"<exec_depend>{name}</exec_depend>" for name in missing]
         them = "it" if len(missing) == 1 else "them"
@@ -112,7 +116,7 @@ def missing_dependencies(around: Surroundings) -> Iterator[Problem]:
             here,
             "info",
             _CODE,
-            f"launch files start programs of {listed(missing)} "
+            f"launch files use {listed(missing)} "
             f"({where(started[missing[0]], here)}), but package.xml does not depend on "
             f"{them}: rosdep does not install {them}",
             write_between(
@@ -122,6 +126,38 @@ def missing_dependencies(around: Surroundings) -> Iterator[Problem]:
                 f"add {' '.join(lines)}",
             ),
         )
+
+
+def _starts(around: Surroundings) -> dict[str, Place]:
+    """Return the packages that launch files start or look into, each with a place."""
+    started: dict[str, Place] = {}
+    for launch in around.launches:
+        for call in launch.called():
+            started.setdefault(launch.text(call, "package") or "", call.place)
+        if any(text.startswith("xacro ") for text in launch.strings):
+            started.setdefault("xacro", Place(launch.shown, 1))
+        for fact in launch.paths:
+            name = fact.value.removeprefix(SHARE).partition("/")[0]
+            if name != around.files.name:
+                started.setdefault(name, fact.place)
+    for element in (e for root in around.files.frontends for e in root.iter()):
+        if element.get("exec") is not None:
+            started.setdefault(element.get("pkg") or "", element.place)
+    return started
+
+
+def _brought(around: Surroundings, named: set[str]) -> set[str]:
+    """Return the dependencies, and those of the packages here among them."""
+    found, waiting = set[str](), [*named]
+    while waiting:
+        name = waiting.pop()
+        workspace = around.files.workspace
+        package = workspace.named(name) if name not in found and workspace else None
+        found.add(name)
+        if package is not None and package.manifest is not None:
+            waiting += [e.text.strip() for e in package.manifest.children]
+    brought = {each for name in found for each in vocabulary("packages").get(name, ())}
+    return found | brought
 
 
 def _words(launch: LaunchFile) -> set[str]:

@@ -74,9 +74,21 @@ def _in_config(file: YamlFile) -> Iterator[_Settings]:
         for _, inner in each_mapping(node, left_out=_OPEN) if owner else ():
             both = ((key.value, place_of(key, file.shown)) for key, _ in pairs(inner))
             keys = {name: Fact(name, place) for name, place in both}
+            keys |= _beside_names(inner, file.shown)
             yield _Settings(
                 owner, _values(inner, file.shown), keys, above * (inner is node)
             )
+
+
+def _beside_names(node: yaml.Node, shown: str) -> dict[str, Fact]:
+    """Return the settings among the frames and the links, each of which is a map."""
+    inside = (value for key, value in pairs(node) if key.value in ("Frames", "Links"))
+    return {
+        key.value: Fact(key.value, place_of(key, shown))
+        for each in inside
+        for key, value in pairs(each)
+        if isinstance(value, yaml.ScalarNode)
+    }
 
 
 def _values(node: yaml.Node, shown: str) -> dict[str, Fact]:

@@ -236,6 +236,12 @@ def _advice(
     if name in _texts(file.tree):
         # It is quoted elsewhere: the name of an argument, of a package, of a node.
         return rewritten(node, file.shown, f"'{name}'")
+    every = [n for n in ast.walk(file.tree) if isinstance(n, ast.Name)]
+    stored = [n for n in every if n.id == near]
+    often = sum(n.id == name for n in every) > 1
+    if often and near is not None and [type(n.ctx) for n in stored] == [ast.Store]:
+        # Others read the undefined name too, and nothing reads this one.
+        return write(file.place(stored[0]), near, name, f" in line {stored[0].lineno}")
     if near in own:
         return write(file.place(node), name, near)
     if near is not None:

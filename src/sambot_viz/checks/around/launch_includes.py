@@ -129,6 +129,11 @@ def _misplaced(
     texts = [n for n in ast.walk(given) if isinstance(n, ast.Constant)]
     said = next((n for n in texts if str(n.value).endswith(name)), None)
     better = right if below.startswith(_FOLDER) else f"{_FOLDER}{right}"
+    folder = below.rpartition("/")[0]
+    parts = [n for n in texts if folder and str(n.value).strip("/") == folder]
+    if name == right and len(parts) == 1:
+        said, name = parts[0], str(parts[0].value)
+        better = name.replace(folder, _FOLDER.strip("/"))
     place = launch.place(said or given)
     return Problem.at(
         place,

@@ -12,6 +12,7 @@ from sambot_viz.checks.around.launching.python_parts import Call, Pair, Table
 from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
+from sambot_viz.edits import write_attribute
 from sambot_viz.errors import Place, Problem, nearest
 
 _PUBLISHER, _DESCRIPTION = "robot_state_publisher", "robot_description"
@@ -53,6 +54,33 @@ def descriptions(around: Surroundings) -> Iterator[Problem]:
                 f"{_PUBLISHER} gets no {_DESCRIPTION}: it stops without a model",
                 "write parameters=[{'robot_description': Command(['xacro ', MODEL])}], "
                 "with the path of the model for MODEL",
+            )
+
+
+def described_in_xml(around: Surroundings) -> Iterator[Problem]:
+    """Report the same in launch files that are not Python."""
+    for root in (root for package in around.packages for root in package.frontends):
+        for node in root.iter():
+            params = {p.get("name") or "": p for p in node.find_all("param")}
+            if node.get("exec") != _PUBLISHER or {"", _DESCRIPTION} & {*params}:
+                continue
+            if node.get("args") is not None:
+                continue
+            texts = [n for n, p in params.items() if "$(command" in str(p.get("value"))]
+            near = nearest(_DESCRIPTION, params, _LIKENESS) or next(iter(texts), None)
+            place = params[near].place if near else node.place
+            is_xml = not place.file.endswith((".yaml", ".yml"))
+            hint = f'write name="{_DESCRIPTION}"'
+            yield Problem.at(
+                place,
+                "error",
+                "launch-description",
+                f"{_PUBLISHER} gets no {_DESCRIPTION}"
+                + (f", but {near}" if near else "")
+                + ": it stops without a model",
+                write_attribute(place, "name", near, _DESCRIPTION, hint=hint)
+                if near and is_xml
+                else hint,
             )
 
 

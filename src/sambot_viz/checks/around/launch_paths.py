@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path, PurePosixPath
@@ -17,6 +18,7 @@ from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Place, Problem, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 OWN_NAMES = {
     "ekf_node": "ekf_filter_node",
@@ -36,6 +38,8 @@ _IN_SHARE = re.compile(
     r"DATADIR\})/\$\{PROJECT_NAME\}/?[\"']?\s*\)"
 )
 """Installs files, or what is in a folder, into the share folder of the package."""
+_FILE = re.compile(r"[\w/.-]*\.(\w{4,5})")
+_ENDINGS = frozenset({"rviz", "urdf", "world", "xacro", "yaml"})
 _WORLDS = (".sdf", ".world", ".wbt")
 _MODELS = (".urdf", ".xacro", ".sdf")
 
@@ -255,3 +259,29 @@ def _worlds(launch: LaunchFile, around: Surroundings) -> Iterator[tuple[str, Pla
         for match in _WORLD.finditer(text or ""):
             line = (text or "").count("\n", 0, match.start()) + 1
             yield match[1], Place(shown, line)
+
+
+def misspelt_endings(around: Surroundings) -> Iterator[Problem]:
+    """Report the end of a file's name that no file has, and that is almost another."""
+    paths = [path for package in around.packages for path in package.paths]
+    endings = {path.rpartition(".")[2] for path in paths}
+    for launch in around.launches:
+        named = [fact.value for fact in launch.paths]
+        for node in ast.walk(launch.tree):
+            if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
+                continue
+            found = _FILE.fullmatch(node.value)
+            if found is None or any(name.endswith(found[0]) for name in named):
+                # A file that is wholly known has another finding.
+                continue
+            near = [e for e in _ENDINGS & endings if is_one_slip(found[1], e)]
+            if found[1] not in endings and len(near) == 1:
+                place, right = launch.place(node), found[0].removesuffix(found[1])
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "launch-file-missing",
+                    f"no file here ends with .{found[1]}, but others end with "
+                    f".{near[0]}: there is no such file",
+                    write(place, found[0], right + near[0]),
+                )

@@ -57,7 +57,9 @@ def _programs(around: Surroundings) -> Iterator[_Program]:
 
 def unknown_programs(around: Surroundings) -> Iterator[Problem]:
     """Report programs that a well-known package does not have."""
-    for package, program, place, package_place in _programs(around):
+    every_program = list(_programs(around))
+    started = {(each.package, each.name) for each in every_program}
+    for package, program, place, package_place in every_program:
         here = next((p for p in around.packages if p.name == package), None)
         own = None if here is None else _own_programs(here)
         every = vocabulary("launch_programs").get(package, ())
@@ -65,6 +67,9 @@ def unknown_programs(around: Surroundings) -> Iterator[Problem]:
         if not known and here is None:
             yield from _of_no_package(around, package, program, package_place)
         if program in known:
+            better = program.removesuffix(".py")
+            if better != program and (package, better) in started and own is None:
+                yield _of_old(place, package, program, better)
             continue
         near = meant_word(known, program, 0.6)
         elsewhere = owners().get(program, "") if known and own is None else ""
@@ -134,6 +139,17 @@ def _of_another(place: Place, said: str, program: str, package: str) -> Problem:
         f"the package {said} has no program {program}, which is in {package}: ros2 "
         "launch stops with it",
         write(place, said, package),
+    )
+
+
+def _of_old(place: Place, package: str, program: str, better: str) -> Problem:
+    return Problem.at(
+        place,
+        "warning",
+        "launch-program-unknown",
+        f"no version of {package} has both {program} and {better}, which others here "
+        "start: ros2 launch stops with one of them",
+        write(place, program, better),
     )
 
 

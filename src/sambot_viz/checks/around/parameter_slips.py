@@ -22,7 +22,7 @@ from sambot_viz.checks.around.place import moved_right, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.edits import write
-from sambot_viz.errors import Place, Problem
+from sambot_viz.errors import Place, Problem, nearest
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _KEY = "ros__parameters"
@@ -32,6 +32,7 @@ WORDS = frozenset({"rue", "tree", "tue"})
 """Words of their own that are almost true or false."""
 _LONG = 4
 _MAP = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
+_MODES = ("trinary", "scale", "raw")
 _IMAGES = (".pgm", ".png", ".bmp", ".jpg")
 
 
@@ -117,6 +118,7 @@ def maps_that_do_not_load(around: Surroundings) -> Iterator[Problem]:
             for name in _MAP:
                 if name not in values:
                     yield _no_value(file, name, list(values))
+            yield from _other_mode(file, values.get("mode"))
             _, image = values.get("image", (None, None))
             said = image.value if isinstance(image, yaml.ScalarNode) else ""
             below = path.rpartition("/")[0]
@@ -138,6 +140,23 @@ def maps_that_do_not_load(around: Surroundings) -> Iterator[Problem]:
                     "map_server stops with an error",
                     write(place, said, right) if right else "add that image",
                 )
+
+
+def _other_mode(
+    file: YamlFile, mode: tuple[yaml.Node, yaml.Node] | None
+) -> Iterator[Problem]:
+    said = mode[1].value if mode and isinstance(mode[1], yaml.ScalarNode) else ""
+    if mode is not None and said and said.lower() not in _MODES:
+        place = place_of(mode[1], file.shown)
+        near = nearest(said.lower(), _MODES)
+        yield Problem.at(
+            place,
+            "error",
+            "parameter-value",
+            f"a map has no mode {said}, but {', '.join(_MODES)}: map_server stops with "
+            "an error",
+            write(place, said, near) if near else "write one of these",
+        )
 
 
 def _map_file(package: Package, path: str) -> YamlFile | None:

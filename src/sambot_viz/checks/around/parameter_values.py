@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from itertools import pairwise
 
 import yaml
 
@@ -43,12 +44,44 @@ _KINDS = {
 def wrong_values(around: Surroundings) -> Iterator[Problem]:
     """Report values of another type, out of their range or no word that is known."""
     for part in (part for parts in parts_by_node(around) for part in parts):
+        exchanged = _exchanged(part)
         for parameter, known in part.known():
+            if parameter in exchanged:
+                yield from exchanged[parameter]
+                continue
             kind = _KINDS.get(known.kind, known.kind)
             found = _type(parameter, kind, part.node, around)
             if found is None and known.counts:
                 found = _count(parameter, known, part.node)
             yield from [found] if found else _value(parameter, known, part)
+
+
+def _exchanged(part: NodePart) -> dict[Parameter, list[Problem]]:
+    """Return two lines with the values of each other, with what is reported of them."""
+    found: dict[Parameter, list[Problem]] = {}
+    for (one, first), (two, second) in pairwise(part.known()):
+        kinds, types = (first.kind, second.kind), (type_of(one.written),)
+        types = (*types, type_of(two.written))
+        is_next = two.place.line == one.place.line + 1
+        if not is_next or kinds != types[::-1] or kinds == types or one in found:
+            continue
+        here, there = one.value_place, two.value_place
+        said, other = one.fact.value, two.fact.value
+        problem = Problem.at(
+            here,
+            "error",
+            "parameter-type",
+            f"{one.name} is {said}, and {two.name} is {other} "
+            f"({where(two.place, here)}): each has the type of the other, and "
+            f"{part.node} stops with an error",
+            together(
+                f"write {other} here and {said} there",
+                write(here, said, other),
+                write(there, other, said),
+            ),
+        )
+        found |= {one: [problem], two: []}
+    return found
 
 
 def _type(

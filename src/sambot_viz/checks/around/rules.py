@@ -124,6 +124,7 @@ from sambot_viz.checks.around.launch_members import (
     names_before_values,
 )
 from sambot_viz.checks.around.launch_nodes import (
+    described_in_xml,
     descriptions,
     namespaces,
     rviz_without_option,
@@ -132,6 +133,7 @@ from sambot_viz.checks.around.launch_nodes import (
 from sambot_viz.checks.around.launch_paths import (
     missing_files,
     missing_plugin_files,
+    misspelt_endings,
     world_names,
 )
 from sambot_viz.checks.around.launch_programs import unknown_programs
@@ -298,6 +300,7 @@ OF_FILES: tuple[Check, ...] = (
     periods,
     misspelt_time,
     descriptions,
+    described_in_xml,
     rviz_without_option,
     parameters_left_out,
     state_publishers,
@@ -325,6 +328,7 @@ OF_FILES: tuple[Check, ...] = (
     different_clocks,
     started_twice,
     missing_files,
+    misspelt_endings,
     unread_parameters,
     unknown_settings,
     switched_off,

@@ -22,6 +22,12 @@ _UNREAD = WordKind(
     "{owner} has no {wrong}, but {right}: what is given here is not read",
     "warning",
 )
+_NEEDED = WordKind(
+    "setup_py",
+    _CODE,
+    "{owner} has {wrong}, which is no package of Python, but {right} is",
+    "warning",
+)
 _NEARLY = re.compile(
     r"\s*(?:(?P<name>[\w.-]+)(?:\s*(?P<sign>=)\s*|\s*:\s*(?=[\w./]+\s*:)|\s+))?"
     r"(?P<path>[\w./]+)(?:\s*:\s*(?P<function>\w+))?\s*"
@@ -51,6 +57,14 @@ def misspelt_arguments(setup: SetupFile, around: Surroundings) -> Iterator[Probl
         for kind, place in names.items()
     ]
     yield from misspelt(words, _UNREAD)
+    needed = [
+        WrittenWord(argument, text, (), place, partial(write, place, text))
+        for argument in ("install_requires", "tests_require")
+        for text, node in setup.values.items(setup.given(argument)).items
+        if isinstance(text, str)
+        for place in [setup.place(node)]
+    ]
+    yield from misspelt(needed, _NEEDED)
 
 
 def texts_for_lists(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:

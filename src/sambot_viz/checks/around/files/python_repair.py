@@ -42,9 +42,23 @@ def fault_in_python(text: str) -> Fault | None:
     cause = error.msg.removeprefix("invalid syntax. ").rstrip("?.")
     for n, better, said in line_repairs(lines, at, error.msg):
         again = _error("\n".join([*lines[: n - 1], better, *lines[n:]]))
-        if again is None or (again.lineno or 0) > max(last, n) + _FURTHER:
+        # What only moves the error is a repair where one more of a line mends that.
+        if again is None or _is_separate(again, lines, n, better, max(last, n)):
             return Fault(n, said or cause, f"write {better.strip()}", better)
     return Fault(at, cause, _hint(error.msg))
+
+
+def _is_separate(
+    error: SyntaxError, lines: list[str], n: int, better: str, last: int
+) -> bool:
+    """Return whether an error further on is mended by itself."""
+    at = error.lineno or 0
+    if not last + _FURTHER < at <= len(lines):
+        return False
+    both = [*lines[: n - 1], better, *lines[n:]]
+    repairs = line_repairs(both, at, error.msg)
+    texts = ("\n".join([*both[: m - 1], b, *both[m:]]) for m, b, _ in repairs)
+    return any(_error(text) is None for text in texts)
 
 
 def _error(text: str) -> SyntaxError | None:
