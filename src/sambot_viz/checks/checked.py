@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from sambot_viz.bundled import config_in
 from sambot_viz.checks.around import built_wrongly, wrong_files
+from sambot_viz.checks.copied_names import with_missing_names
 from sambot_viz.checks.launched_models import launched, load_launched, wrong_variants
 from sambot_viz.checks.model_rules import (
     AROUND,
@@ -75,7 +76,7 @@ def check_all(
         try:
             robot = load_launched(load, target, variants[0], given)
         except RobotError as error:
-            problems += error.problems
+            problems += with_missing_names(error.problems, target)
             continue
         subject = subject_of(robot, target.model, None, target.packages)
         of_model = [*robot.problems, *find_problems(subject, RULES)]
