@@ -44,6 +44,12 @@ INERTIA = '<inertial><mass value="1"/><inertia {}/></inertial>'
             '<link name="a"><visual><geometry><sphere radius="1"/></geometry>'
             "</visual></link>",
         ),
+        (
+            '<link name="a">\n<visual><geometry><sphere radius="1"/></geometry>'
+            "\n</link>\n</visual>",
+            '<link name="a">\n<visual><geometry><sphere radius="1"/></geometry>'
+            "\n</visual>\n</link>",
+        ),
         ('<link name="a"/></link>', '<link name="a"/>'),
         (
             '<link name="a"><visual><sphere radius="1"/></geometry></visual></link>',

@@ -46,6 +46,7 @@ def gazebo_words(subject: Subject) -> Iterator[Problem]:
     for part in subject.robot.gazebo if subject.robot.language == "urdf" else ():
         if part.tag == "gazebo":
             yield from _misspelt(part, _in_gazebo(), part)
+            yield from _colours(part)
 
 
 def sensor_words(subject: Subject) -> Iterator[Problem]:
@@ -66,6 +67,22 @@ def sensor_words(subject: Subject) -> Iterator[Problem]:
                     for child in element.children
                     if child.tag in kind.children
                 ]
+
+
+def _colours(part: Element) -> Iterator[Problem]:
+    """Report a colour that is almost one of Gazebo Classic's."""
+    known = [f"Gazebo/{colour}" for colour in vocabulary("gazebo_materials")]
+    for material in part.find_all("material"):
+        said = material.text.strip()
+        near = [colour for colour in known if is_one_slip(said, colour)]
+        if said not in known and len(near) == 1:
+            yield Problem.at(
+                material.place,
+                "warning",
+                "sdf-value",
+                f"Gazebo Classic has no material {said}: the link has no colour there",
+                write(material.place, said, near[0]),
+            )
 
 
 def _plain(name: str) -> str:

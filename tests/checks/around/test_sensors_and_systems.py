@@ -89,6 +89,12 @@ SCAN = LIDAR + "<ray><range><min>0.12</min><max>3.5</max></range></ray>"
             "exchange 3.5 and 0.12",
         ),
         (
+            LIDAR,
+            LIDAR + TURN.replace("6.28", "-1570.8"),
+            "-1570.8 is more than a full turn",
+            "write the angle in radians",
+        ),
+        (
             SCAN.replace("0.12", "12"),
             "",
             "<min> of the sensor lidar is 12 m",
@@ -159,6 +165,8 @@ IMU = """\
         ),
         ('<plugin name="imu"', "<plugin", "gazebo-plugin", 4),
         ("id>imu_link<", "id>ium_link<", "frame-unknown", 3),
+        ('imu" type="imu">', 'imu" tpye="imu">', "gazebo-sensor", 3),
+        ("Gazebo/Red", "Gazebo/Rd", "sdf-value", 6),
         (
             '"imu_link"><material',
             '"imulink"><material',

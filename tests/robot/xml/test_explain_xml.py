@@ -64,7 +64,7 @@ CASES = [
         "visual",
     ),
     (ROBOT.format("<origin xyz='0'>\n"), "xml-tag-not-closed", 3, "origin"),
-    (ROBOT.format("<a>\n<b>\n</a>\n</b>\n"), "xml-tag-not-closed", 4, "<b>"),
+    (ROBOT.format("<a>\n<b>\n</a>\n</b>\n"), "xml-tag-not-closed", 5, "</b>"),
     (ROBOT.format("<link/>\n</link>\n"), "xml-closing-tag-surplus", 4, "slash"),
     (ROBOT.format("</visual>\n"), "xml-closing-tag-surplus", 3, "closes nothing"),
     (ROBOT.format("<visual></visaul>\n"), "xml-closing-tag-misspelt", 3, "visaul"),
@@ -172,6 +172,23 @@ def test_a_robot_that_was_never_opened_is_one_problem() -> None:
     assert "</robot> on line 3 closes nothing" in problem.message
     assert problem.hint.startswith('write <robot name="…"')
     assert not problem.edits
+
+
+def test_a_misspelt_root_is_written_as_its_closing_tag() -> None:
+    problem = only('<rbot name="a">\n<link name="b"/>\n</robot>\n')
+
+    assert (problem.line, problem.hint) == (1, "write <robot>")
+
+
+def test_a_closing_tag_with_the_name_of_a_macro_is_right() -> None:
+    head = '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+    macro = '<xacro:macro name="arm" params="*b"/>\n'
+    problem = only(f"{head}{macro}<xacro:am>\n<a/>\n</xacro:arm>\n</robot>\n")
+
+    assert (problem.line, problem.hint) == (
+        3,
+        "write <xacro:arm>, as other elements are called",
+    )
 
 
 def test_an_sdf_that_was_never_opened_gets_its_opening_tag() -> None:

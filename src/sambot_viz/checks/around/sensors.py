@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 
 from sambot_viz.checks.around.files.gazebo import (
     SENSOR_FRAMES,
@@ -16,7 +16,13 @@ from sambot_viz.checks.around.place import where
 from sambot_viz.checks.clues import guess
 from sambot_viz.checks.rule import number
 from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.edits import rename_element, together, write, write_attribute
+from sambot_viz.edits import (
+    rename_attribute,
+    rename_element,
+    together,
+    write,
+    write_attribute,
+)
 from sambot_viz.errors import Fix, Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.slips.exchanged_words import exchanged
@@ -120,8 +126,15 @@ def lidars_of_the_other(robot: Robot) -> Iterator[Problem]:
 def unknown_types(robot: Robot) -> Iterator[Problem]:
     """Report types of sensors that are almost one of Gazebo's."""
     known = vocabulary("sensor_types")
+    parts = (part for part in robot.gazebo if part.tag == "gazebo")
+    # A sensor of <ros2_control> has no type.
+    in_gazebo = [sensor for part in parts for sensor in part.find_all("sensor")]
     for _, sensor in sensors(robot.gazebo):
         kind = (sensor.get("type") or "").strip()
+        if sensor.get("type") is None:
+            if any(part is sensor for part in in_gazebo):
+                yield _typeless(sensor, known)
+            continue
         bare = kind.lower().removesuffix("_sensor")
         same = (each for each in known if _words(each) == _words(bare))
         near = next(same, None) or nearest(bare, known, _LIKENESS)
@@ -144,6 +157,22 @@ def unknown_types(robot: Robot) -> Iterator[Problem]:
             )
 
 
+def _typeless(sensor: Element, known: Container[str]) -> Problem:
+    """Report a sensor without a type, or with the attribute in other letters."""
+    hint: str | Fix = 'add type="…" with the kind of sensor, such as gpu_lidar'
+    for name, value in sensor.attributes.items():
+        if value in known and name != "name":
+            said = f'write type="{value}"'
+            hint = rename_attribute(sensor.place, name, "type", value, said)
+    return Problem.at(
+        sensor.place,
+        "warning",
+        "gazebo-sensor",
+        f"the sensor {_named(sensor)} has no type: Gazebo leaves it out",
+        hint,
+    )
+
+
 def _words(kind: str) -> list[str]:
     return sorted(kind.replace("-", "_").split("_"))
 
@@ -153,8 +182,19 @@ def sensor_values(robot: Robot) -> Iterator[Problem]:
     for _, sensor in sensors(robot.gazebo):
         for element in sensor.iter():
             for fact in facts(element, *_ANGLES):
-                if fact.number is not None and _FULL_TURN < abs(fact.number) <= _TURN:
-                    yield _in_degrees(sensor, fact, fact.number)
+                angle = abs(fact.number or 0.0)
+                if _FULL_TURN < angle <= _TURN:
+                    yield _in_degrees(sensor, fact, fact.number or 0.0)
+                elif angle > _TURN and element.tag in ("horizontal", "vertical"):
+                    yield Problem.at(
+                        fact.place,
+                        "warning",
+                        "gazebo-sensor",
+                        f"{fact.value} is more than a full turn for the sensor "
+                        f"{_named(sensor)} ({where(sensor.place, fact.place)}): Gazebo "
+                        "reads radians",
+                        "write the angle in radians, at most 3.1416 to each side",
+                    )
             yield from _exchanged(sensor, element)
         for fact in facts(sensor, "update_rate"):
             if fact.number is not None and fact.number < 0:

@@ -19,6 +19,7 @@ from sambot_viz.robot.sdf.sdf_frames import FramePoses
 from sambot_viz.robot.sdf.values import trimmed
 from sambot_viz.robot.sdf.wording import REFUSED, and_list
 from sambot_viz.robot.slips.axle import axle_of
+from sambot_viz.robot.slips.exchanged_words import exchanged
 from sambot_viz.robot.urdf.joints import meant_type
 from sambot_viz.robot.xml.element import Element
 
@@ -107,7 +108,8 @@ class MotionReader:
                 "joint-type-unknown",
                 f"joint {joint.name} has the unknown type '{written}' ({why}); "
                 f"{REFUSED}",
-                f'write type="{meant}"' if meant else f"use {', '.join(TYPES)}",
+                exchanged(joint.element, "type", TYPES)
+                or (f'write type="{meant}"' if meant else f"use {', '.join(TYPES)}"),
                 joint.element,
                 "type",
             )

@@ -44,6 +44,11 @@ def unknown_frame(
         f'{attribute}="{name}" of {described(at)}: there is no link, joint or frame '
         f"called {name}"
     )
+    if any(joint.element.get("type") == name for joint in scope.of_kind("joint")):
+        return FrameWords(
+            f"{message}: the joint has it as its type; {REFUSED}",
+            "exchange the name and the type of that joint",
+        )
     owner = _owner(at, scope)
     if owner is not None and root is not None and joint_is_missing(owner, scope, root):
         joint = (

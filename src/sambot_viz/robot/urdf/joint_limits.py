@@ -75,11 +75,11 @@ class LimitReader:
         ends = _example(self._kind, ("lower", "upper"), Limit())
         child = self._element.find("child")
         link = (child.get("link") if child else None) or ""
-        if self._kind == "revolute" and rolls(self._name, link):
+        if rolls(self._name, link):
             self._findings.reject(
                 "limit-missing",
-                f"joint {self._name} is revolute and has no <limit>, as a wheel has "
-                f"none that turns without end; {_REFUSED}",
+                f"joint {self._name} is {self._kind} and has no <limit>, as a wheel "
+                f"has none that turns without end; {_REFUSED}",
                 'write type="continuous"',
                 self._element,
             )

@@ -86,13 +86,18 @@ class _Walk:
     problems: list[Problem] = field(default_factory=list["Problem"])
     stack: list[_Open] = field(default_factory=list["_Open"])
     root: Token | None = None
+    crossed: bool = False
 
     def run(self) -> None:
         tags = self.source.tags
         for index, token in enumerate(tags):
             if len(self.problems) > _MOST:
                 return
-            if token.kind == "close":
+            if self.crossed:
+                # The two tags were reported together.
+                self.crossed = False
+                self.stack.pop()
+            elif token.kind == "close":
                 self._close(token, tags[index + 1] if tags[index + 1 :] else None)
             else:
                 self._start(token)
@@ -104,6 +109,9 @@ class _Walk:
 
     def without_root(self, first: Token, closed: Token) -> None:
         """Report a closing tag of the root at the end whose opening tag is missing."""
+        if difflib.SequenceMatcher(None, first.name, closed.name).ratio() >= 0.7:
+            self._misspelt(first, closed, is_opened=True)
+            return
         opening = _ROOT_TAGS[closed.name]
         line = self._line(first)
         added = [(first.start, first.start, f"{opening}\n")]
@@ -145,6 +153,8 @@ class _Walk:
                 self.stack[-1].ends.append(token)
         elif name.lower() == opened.name.lower():
             self._misspelt(opened, token)
+        elif following and names[-2:] == [name, following.name] and following.closes:
+            self._crossed(token, following)
         elif name in names:
             depth = len(names) - 1 - names[::-1].index(name)
             for entry in self.stack[depth + 1 :][:_MOST]:
@@ -159,9 +169,16 @@ class _Walk:
         else:
             self._surplus(token)
 
-    def _misspelt(self, opened: Token, closed: Token) -> None:
-        """A closing tag whose name is nearly that of the open tag."""
-        self.stack.pop()
+    def _misspelt(self, opened: Token, closed: Token, is_opened: bool = False) -> None:
+        """A closing tag whose name is nearly that of the open tag.
+
+        Args:
+            opened: the open tag.
+            closed: the closing tag.
+            is_opened: the open tag is known to be the wrong one.
+        """
+        if self.stack:
+            self.stack.pop()
         first, last = self._line(opened), self._line(closed)
         ends = f"is closed by </{closed.name}> on line {last}"
         if opened.name.lower() != closed.name.lower():
@@ -169,9 +186,11 @@ class _Walk:
             code, hint = "xml-closing-tag-misspelt", f"write </{opened.name}>"
             change = (closed.start, closed.end, f"</{opened.name}>")
             at = closed.start
-            if self._is_used(closed.name) and not self._is_used(opened.name, opened):
+            others = self._is_used(closed.name) or self._is_macro(closed.name)
+            if is_opened or (others and not self._is_used(opened.name, opened)):
                 at, begin = opened.start, opened.start + 1
-                hint = f"write <{closed.name}>, as other elements are called"
+                hint = f"write <{closed.name}>"
+                hint += ", as other elements are called" if others else ""
                 change = (begin, begin + len(opened.name), closed.name)
             self._add(code, at, message, hint, change)
             return
@@ -188,10 +207,33 @@ class _Walk:
         ]
         self._add("xml-tag-case", wrong.start, message, hint, *changes)
 
+    def _crossed(self, first: Token, second: Token) -> None:
+        """Report two closing tags in the order of their opening tags."""
+        inner, outer = (f"</{token.name}>" for token in (second, first))
+        self._add(
+            "xml-tag-not-closed",
+            first.start,
+            f"{outer} on line {self._line(first)} is before {inner} on line "
+            f"{self._line(second)}, which was opened later",
+            f"exchange {outer} and {inner}",
+            (first.start, first.end, inner),
+            (second.start, second.end, outer),
+        )
+        self.crossed = True
+        self.stack.pop()
+
     def _is_used(self, name: str, but: Token | None = None) -> bool:
         """Return whether elements have a name, without the one of a tag."""
         tags = self.source.tags
         return any(t.name == name and not t.closes and t is not but for t in tags)
+
+    def _is_macro(self, name: str) -> bool:
+        """Return whether a macro of this name is defined."""
+        own = name.removeprefix("xacro:")
+        return own != name and any(
+            tag.name == "xacro:macro" and tag.get("name") == own
+            for tag in self.source.tags
+        )
 
     def _unclosed(self, entry: _Open, closed: Token | None) -> None:
         opened = entry.token
