@@ -175,3 +175,34 @@ def test_a_frame_in_a_macro_is_written_with_its_parameter(
     (problem,) = (p for p in check(model) if p.severity == "error")
 
     assert apply_edits(problem.edits, model.read_text()) == PILLAR.format(**NAMES)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [
+        (
+            macro("name r", "", 'name="a" r="1"').replace(' radius=""', ""),
+            macro("name r", "${r}", 'name="a" r="1"'),
+        ),
+        (
+            BALL.format("2").replace(
+                "</link>",
+                "<collision><geometry><sphere/></geometry></collision></link>",
+            ),
+            BALL.format("2").replace(
+                "</link>",
+                '<collision><geometry><sphere radius="2"/></geometry></collision>'
+                "</link>",
+            ),
+        ),
+    ],
+)
+def test_a_value_that_is_missing_is_the_one_that_nothing_else_uses(
+    wrong: str, right: str, tmp_path: Path
+) -> None:
+    model = tmp_path / "robot.urdf.xacro"
+    model.write_text(f"{HEAD}{wrong}</robot>")
+
+    (problem,) = (p for p in check(model) if p.code == "attribute-missing")
+
+    assert apply_edits(problem.edits, model.read_text()) == f"{HEAD}{right}</robot>"

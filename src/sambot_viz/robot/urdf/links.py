@@ -256,12 +256,23 @@ class LinkReader:
                 element,
                 "diameter",
             )
-        return reader.number(element, name, "0.1")
+        return reader.number(element, name, _as_beside(element, name) or "0.1")
 
     def _mesh(self, element: Element, reader: AttributeReader) -> MeshFile:
         filename = reader.required(element, "filename", "package://…/meshes/….stl")
         scale = reader.vector(element, "scale", (1.0, 1.0, 1.0))
         return MeshFile(filename, scale, self._find_mesh(filename, element))
+
+
+def _as_beside(element: Element, name: str) -> str | None:
+    """Return an attribute of the same solid in another shape of the link."""
+    link = element.parent
+    while link is not None and link.tag != "link":
+        link = link.parent
+    solids = link.iter() if link is not None else iter(())
+    said = {e.get(name) for e in solids if e.tag == element.tag and e is not element}
+    said.discard(None)
+    return said.pop() if len(said) == 1 else None
 
 
 def _half(element: Element) -> Fix:

@@ -14,6 +14,7 @@ from sambot_viz.robot.xml.element import Element
 _REPEATED = ("link-duplicate", "joint-duplicate", "sdf-name-taken")
 _UNKNOWN = ("sdf-frame-unknown", "joint-child-unknown", "joint-parent-unknown")
 _OF_VALUES = ("sdf-urdf-habit",)
+_MISSING_VALUE = "attribute-missing"
 _NO_DOLLAR = re.compile(r"(?<!\$)\{\s*(\w+)\s*\}")
 _PARAMETER = re.compile(r"\$\{\s*(\w+)\s*\}")
 _MISSING = re.compile(r" link '([^']+)', which does not| frame called ([^ ;]+)")
@@ -29,7 +30,7 @@ def name_with_parameters(
         problems: those of a model that came out of xacro.
         document: the root element before xacro.
     """
-    codes = (*_REPEATED, *_UNKNOWN, *_OF_VALUES)
+    codes = (*_REPEATED, *_UNKNOWN, *_OF_VALUES, _MISSING_VALUE)
     if not any(problem.code in codes for problem in problems):
         return list(problems)
     done: set[tuple[str, int | None]] = set()
@@ -44,6 +45,8 @@ def name_with_parameters(
             better = _repeated(problem, document)
         elif problem.code in _UNKNOWN:
             better = _unknown(group, document)
+        elif problem.code == _MISSING_VALUE:
+            better = _with_unused(problem, document)
         elif problem.code in _OF_VALUES:
             better = _with_expression(group, document)
         else:
@@ -159,6 +162,22 @@ def _with_expression(group: Sequence[Problem], document: Element) -> Problem | N
             end = _common([hint[::-1] for hint in hints], first.hint[::-1])
             before, after = first.hint[:start], first.hint[len(first.hint) - end :]
             return replace(first, hint=f"{before}{given[0]}{after}")
+    return None
+
+
+def _with_unused(problem: Problem, document: Element) -> Problem | None:
+    """Advise the only parameter of a macro that its body does not use."""
+    for element in _at(problem, document):
+        macro = _macro_around(element)
+        if macro is None:
+            continue
+        inner = [e for e in macro.iter() if e is not macro]
+        texts = [t for e in inner for t in (e.text, e.tag, *e.attributes.values())]
+        used = set(re.findall(r"\w+", " ".join(texts)))
+        free = [p for p in parameters(macro.get("params") or "") if p not in used]
+        said = re.fullmatch(r'(write \w+=)"[^"]*"', problem.hint)
+        if len(free) == 1 and said is not None:
+            return replace(problem, hint=f'{said[1]}"${{{free[0]}}}"', edits=())
     return None
 
 
