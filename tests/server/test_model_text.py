@@ -170,8 +170,48 @@ def test_a_fix_mends_the_text_by_the_panel_problems_too(
     assert "not saved" in editor.notice
 
 
+@pytest.mark.parametrize(
+    ("wrong", "line", "mended"),
+    [
+        # What keeps the model from being read has its fix, as `check --fix` has it.
+        ('<robot>\n<link name="hull"/>\n</robot>\n', 1, '<robot name="my_robot">'),
+        # A fix that changes lines before, too, is marked at the mistake.
+        (
+            '<robot name="r">\n<link name="hull"/>\n<visual><geometry>'
+            '<sphere radius="0.1"/></geometry></visual>\n</robot>\n',
+            3,
+            "</visual></link>",
+        ),
+    ],
+)
+def test_a_mistake_is_marked_at_its_line_and_its_fix_is_offered(
+    edit: Callable[..., Editor],
+    show: Callable[..., Visualizer],
+    package: Path,
+    wrong: str,
+    line: int,
+    mended: str,
+) -> None:
+    file = package / "urdf" / "plain.urdf"
+    file.write_text('<robot name="r">\n<link name="hull"/>\n</robot>\n')
+    editor = edit(show(file, edit=True))
+    editor.replace(editor.text, wrong)
+    (problem,) = editor.problems()
+    assert problem["fix"] and 1 + wrong.count("\n", 0, problem["from"]) == line
+    for start, end, new in reversed(problem["edits"]):
+        wrong = wrong[:start] + new + wrong[end:]
+    assert mended in wrong
+    editor.replace(editor.text, wrong)
+    assert editor.problems() == []
+    assert "hull" in editor.links
+
+
+@pytest.mark.parametrize("by_page", [False, True])
 def test_what_was_applied_is_not_listed_beside_the_error_that_it_uncovers(
-    edit: Callable[..., Editor], show: Callable[..., Visualizer], package: Path
+    edit: Callable[..., Editor],
+    show: Callable[..., Visualizer],
+    package: Path,
+    by_page: bool,
 ) -> None:
     file = package / "urdf" / "plain.urdf"
     wrong = '<xacro:proprty name="a" value="1"/>'
@@ -179,9 +219,35 @@ def test_what_was_applied_is_not_listed_beside_the_error_that_it_uncovers(
     editor = edit(show(file))
     (problem,) = editor.problems()
     assert problem["severity"] == "warning"
-    editor.client.act("model/fix", problem["id"])
+    if by_page:
+        ((start, end, new),) = problem["edits"]
+        shown = editor.value("text")
+        place = shown["file"], shown["version"], start, end
+        editor.client.act("model/type", *place, new, False)
+    else:
+        editor.client.act("model/fix", problem["id"])
     editor.client.wait_until(lambda: HEAD in editor.text)
     assert [found["severity"] for found in editor.problems()] == ["error"]
+
+
+def test_the_name_of_the_package_is_that_of_the_text(
+    edit: Callable[..., Editor], package: Path
+) -> None:
+    (package / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.8)\nproject(package)\n"
+        "find_package(ament_cmake REQUIRED)\nament_package()\n"
+    )
+    editor = edit()
+
+    def codes() -> set[str]:
+        listed = session_of(editor.viz).problems.shown.value.listed
+        return {problem.code for problem in listed}
+
+    editor.open("package.xml")
+    editor.replace("<name>package<", "<name>parcel<")
+    editor.client.wait_until(lambda: "cmake-project-name" in codes())
+    editor.replace("<name>parcel<", "<name>package<")
+    editor.client.wait_until(lambda: "cmake-project-name" not in codes())
 
 
 def test_saving_keeps_the_encoding_and_the_line_ends(

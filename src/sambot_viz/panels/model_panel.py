@@ -385,11 +385,13 @@ def _id(problem: Problem) -> str:
 def _extent(problem: Problem, source: SourceFile) -> Extent:
     """Return the marked text: the part that a fix replaces, a tag's name, or a line."""
     here = hash(source.text)
-    for edit in problem.edits:
-        if edit.seen == here and edit.end > edit.start:
-            return Extent(edit.start, edit.end)
     place = Place(problem.file or "", problem.line or 1, problem.column)
     start = min(source.offset(place), len(source.text))
+    begin = source.offset(Place(place.file, place.line))
+    for edit in problem.edits:
+        # A fix may change lines before, too.
+        if edit.seen == here and edit.end > edit.start >= begin:
+            return Extent(edit.start, edit.end)
     tag = source.tag(start)
     if tag is not None:
         return Extent(start, tag.name.end)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple
 
+from sambot_viz.advice import with_edits
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.gazebo_parts import gazebo_parts
@@ -69,11 +70,14 @@ def load_model(
     edited: Mapping[str, str],
 ) -> LoadedModel:
     """Load a model; arguments and errors are those of `load_robot`."""
-    if isinstance(model, OpenedModel):
-        opened = edited_model(model, edited)
-    else:
-        opened = open_model(model, edited)
-    return _Loader(opened, xacro_args, package_path, trusted, edited).load()
+    try:
+        if isinstance(model, OpenedModel):
+            opened = edited_model(model, edited)
+        else:
+            opened = open_model(model, edited)
+        return _Loader(opened, xacro_args, package_path, trusted, edited).load()
+    except RobotError as error:
+        raise RobotError(with_edits(error.problems), error.files) from error.__cause__
 
 
 def expand(

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.files import read_limited
+from sambot_viz.unsaved import unsaved_text
 
 MANIFESTS = ("package.xml", "manifest.xml", "model.config")
 IGNORE_MARKS = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
@@ -57,12 +58,14 @@ def package_name(folder: Path) -> str | None:
     It is the ``<name>`` in package.xml, not the folder's name; packages with the older
     manifest.xml or with Gazebo's model.config are named by their folder.
     """
-    try:
-        data = read_limited(folder / "package.xml", limits.PACKAGE_TEXT.value)
-    except (OSError, ValueError):
-        old = any((folder / name).is_file() for name in MANIFESTS[1:])
-        return folder.name if old else None
-    text = data.decode("utf-8", "replace")
+    text = unsaved_text(folder / "package.xml")
+    if text is None:
+        try:
+            data = read_limited(folder / "package.xml", limits.PACKAGE_TEXT.value)
+        except (OSError, ValueError):
+            old = any((folder / name).is_file() for name in MANIFESTS[1:])
+            return folder.name if old else None
+        text = data.decode("utf-8", "replace")
     without_comments = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
     match = _NAME.search(without_comments)
     return match[1] if match else folder.name

@@ -247,8 +247,22 @@ class ModelText:
         Raises:
             UsageError: it is too long.
         """
-        if self.buffer(name).replace(version, start, end, new):
+        buffer = self.buffer(name)
+        before = buffer.text
+        if buffer.replace(version, start, end, new):
+            self._note_applied(buffer, before)
             self._tell(loads=not more)
+
+    def _note_applied(self, buffer: Buffer, before: str) -> None:
+        """Note a fix that the editor of the page has made in a text."""
+        for problem in self._problems.shown.value.listed:
+            edits = problem.edits
+            is_of_text = edits and all(
+                edit.seen == hash(before) and self.name_of(edit.file) == buffer.name
+                for edit in edits
+            )
+            if is_of_text and apply_edits(edits, before) == buffer.text:
+                self._problems.note_applied(edits)
 
     def apply(self, edits: Iterable[Edit]) -> None:
         """Make the edits of a problem in the texts.
