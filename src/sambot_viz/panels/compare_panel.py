@@ -70,7 +70,8 @@ class ComparePanel(Panel):
                     "bool",
                     "Ghost",
                     choice.ghost,
-                    help="Draw the links that differ, as they are in the other model.",
+                    help="Draw the links that differ, as they are in the other model; "
+                    "those inside of the robot need a lower Alpha of RobotModel.",
                     set=self._setter("ghost"),
                 ),
                 Row(
