@@ -224,7 +224,7 @@ export class Editor {
   compare({ file, version, merges, conflicts }) {
     const open = this.open;
     if (!open) return;
-    if (merges > open.merges)
+    if (merges > open.merges && !conflicts.length)
       tell(`Another program has saved ${file}: the text has its changes and those of here`, "info");
     open.merges = merges;
     if (!open.sync.isAhead && version === open.sync.version)
