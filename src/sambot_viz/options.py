@@ -601,6 +601,7 @@ class Options:
             ("--source", self.source or None),
             ("--broadcast", self.broadcast),
             ("--presenter", self.presenter),
+            ("--metrics", self.metrics or None),
         )
         given = [flag for flag, value in others if value is not None]
         if self.follow is not None and given:

@@ -196,8 +196,10 @@ test("who watches cannot set what others see, and their own rows they can", () =
     [true, undefined, undefined],
   );
   assert.equal(rows.get("a"), rows.get("a"));
+  rows.watch(true, true);
+  assert.deepEqual([rows.get("a")?.off, rows.get("mine")?.off], [true, true]);
   rows.watch(false);
-  assert.deepEqual([heard, rows.get("a")?.off], [2, undefined]);
+  assert.deepEqual([heard, rows.get("a")?.off], [3, undefined]);
 });
 
 test("data and commands are beside the rows, and follow the server too", () => {
@@ -220,6 +222,8 @@ test("data and commands are beside the rows, and follow the server too", () => {
   assert.deepEqual(rows.data("x/names"), ["a", "b"]);
   rows.watch(true);
   assert.deepEqual([rows.can("x/do"), rows.can("x/mine")], [false, true]);
+  rows.watch(true, true);
+  assert.deepEqual([rows.can("x/do"), rows.can("x/mine")], [false, false]);
   rows.watch(false);
   heard.length = 0;
   part(names, mine);

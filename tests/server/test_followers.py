@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import re
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import pytest
+import zenoh
 from inside import session_of
 from live_peers import WAIT
 from page_rows import PageRows, decode
@@ -325,6 +329,32 @@ def test_a_follower_asks_for_its_token_as_every_server_does(
     assert protocol(server.port, path="?token=a-secret")
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="the loopback has another name")
+@pytest.mark.parametrize("own_machine", ["lo", "eth99"])
+def test_the_router_of_the_documents_lets_only_its_own_machine_broadcast(
+    own_machine: str,
+    repository: Path,
+    make_viz: Callable[..., Visualizer],
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    config = zenoh.Config.from_file(str(repository / "deploy" / "zenoh-router.json5"))
+    rules = config.get_json("access_control").replace('"lo"', f'"{own_machine}"')
+    router = ZenohPeer(has_nodes=False, access_control=json.loads(rules))
+    options = Options(follow=f"{router.uri}/arm", port=0)
+    with listen(options) as listener:
+        stop = follow(options, listener)
+        origin = make_viz(broadcast=options.follow)
+        client = protocol(listener.viser.get_port())
+        if own_machine == "lo":
+            client.wait_until(lambda: follows(client), WAIT)
+        else:
+            client.wait_until(lambda: "Nobody broadcasts" in said(client), WAIT)
+            assert router.tokens("sambot-viz/**") == []
+        origin.stop()
+        stop()
+    router.stop()
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [
@@ -333,6 +363,7 @@ def test_a_follower_asks_for_its_token_as_every_server_does(
         ({"broadcast": "zenoh://h/a", "session": "private"}, "all browsers share"),
         ({"follow": "zenoh://h/a", "model": "a.urdf"}, "leave MODEL out"),
         ({"follow": "zenoh://h/a", "presenter": ""}, "leave --presenter out"),
+        ({"follow": "zenoh://h/a", "metrics": True}, "leave --metrics out"),
     ],
 )
 def test_what_cannot_be_is_refused_with_what_to_write(

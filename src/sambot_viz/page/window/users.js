@@ -3,7 +3,7 @@
 
 import { useLayoutEffect, useReducer } from "../vendor/preact.js";
 import { Cell, useData, useRow } from "../state.js";
-import { act, rows } from "../wire/channel.js";
+import { act, FOLLOWS, rows } from "../wire/channel.js";
 
 /**
  * @typedef {{presented: boolean, copy: boolean, copies: number, slot?: number, left?: number | null}} State
@@ -58,7 +58,7 @@ export function followRole() {
   const look = () => {
     const me = /** @type {Me | undefined} */ (rows.data("role/me"));
     if (!me) return;
-    rows.watch(!me.control);
+    rows.watch(!me.control, Boolean(rows.data(FOLLOWS)));
     document.body.classList.toggle("view-only", !me.control);
     // Each connection is a new client, with a name like "Viewer 4". A private copy has other users.
     if (!location.pathname.endsWith("/copy/")) {

@@ -111,6 +111,8 @@ export function followConnection() {
     lost = stopped = false;
     kept = null;
     goOnline();
+    // Nothing that a server keeps for a page of a follower is this page's own.
+    if (rows.data(FOLLOWS)) return loaded ? said.set(null) : sayBack("", then);
     showView(then, loaded);
     // The robot is elsewhere than it was when this view showed it.
     if (then.robot?.drives || (then.robot?.away && then.session !== again?.id)) act("drive/find");
@@ -171,12 +173,15 @@ function say(again, before, dropped, quiet = false, news = false) {
     );
   if (quiet && !news && !lost.length && !other) return said.set(null);
   // A user who has loaded the page again has lost no connection.
-  const back = {
-    text: quiet ? again : `The connection is back. ${again}`.trim(),
-    lost,
-    other,
-    before,
-  };
+  sayBack(again, before, quiet, lost, other);
+}
+
+/** Say that the connection is back; for some seconds, when nothing is lost.
+ * @param {string} again why @param {Memory} before @param {boolean} [quiet] when a user has loaded the page again
+ * @param {string[]} [lost] @param {Memory["file"] | null} [other] the config that was open before */
+function sayBack(again, before, quiet = false, lost = [], other = null) {
+  const text = quiet ? again : `The connection is back. ${again}`.trim();
+  const back = { text, lost, other, before };
   said.set(back);
   if (!lost.length && !other)
     setTimeout(() => {
@@ -244,7 +249,7 @@ export function Connection() {
         : isState(now)
           ? html`<${Lost} ...${now} />`
           : trouble
-            ? html`<p class="l-error">${trouble}. Trying again…</p>`
+            ? html`<p class="l-error">${`${trouble}. Trying again…`}</p>`
             : now && html`<${Back} ...${now} />`
     }</div>`;
 }

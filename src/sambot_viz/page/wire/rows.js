@@ -44,6 +44,8 @@ export class Rows {
     this.held = new Map();
     /** Whether this user only watches: what others see cannot be set here. */
     this.watching = false;
+    /** Whether such a user cannot set what is of this browser alone either. */
+    this.closed = false;
     /** @type {WeakMap<Row, Row>} */
     this.locked = new WeakMap();
   }
@@ -53,10 +55,11 @@ export class Rows {
     return this.names.has("session") && this.names.has("browser");
   }
 
-  /** Whether this user only watches from now on. @param {boolean} on */
-  watch(on) {
-    if (this.watching === on) return;
+  /** Whether this user only watches from now on. @param {boolean} on @param {boolean} [closed] */
+  watch(on, closed = false) {
+    if (this.watching === on && this.closed === closed) return;
     this.watching = on;
+    this.closed = closed;
     for (const id of [...this.byId.keys(), ...this.others.keys()]) this.notify(id);
   }
 
@@ -202,7 +205,7 @@ export class Rows {
   /** @param {string} id */
   get(id) {
     const row = this.byId.get(id);
-    if (!row || !this.watching || row.local || row.fixed || row.off) return row;
+    if (!row || !this.watching || this.isOpen(row) || row.fixed || row.off) return row;
     if (!this.locked.has(row)) this.locked.set(row, { ...row, off: true });
     return this.locked.get(row);
   }
@@ -224,7 +227,12 @@ export class Rows {
 
   /** Whether a command can be called now by this user. @param {string} id */
   can(id) {
-    return this.knows(id) && (!this.watching || Boolean(this.others.get(id)?.local));
+    return this.knows(id) && (!this.watching || this.isOpen(this.others.get(id)));
+  }
+
+  /** Whether who only watches can set a row, or call a command. @param {{local?: boolean} | undefined} item */
+  isOpen(item) {
+    return Boolean(item?.local) && !this.closed;
   }
 
   /** The ids below a row, or at the top of a panel ("panel:NAME"). @param {string} key */

@@ -19,6 +19,9 @@ AGAIN = 0.5, 1.5
 """The shortest and the longest pause before the next try, by chance, so that not all
 come at once [s]."""
 
+END_TIME = 1.0
+"""How long one that opens is waited for at the end [s]."""
+
 
 class End(Protocol):
     """One end of a broadcast; all is called on the event loop."""
@@ -67,6 +70,7 @@ async def _hold_once(address: Address, end: End) -> None:
             await lost.wait()
     finally:
         # One that is given up while it opens is closed when it has opened.
+        await asyncio.wait([task], timeout=END_TIME)
         _close(task) if task.done() else task.add_done_callback(_close)
 
 
