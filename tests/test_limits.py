@@ -98,7 +98,7 @@ NO_LIMITS = {
         messages/protobuf_transforms.py _LARGEST _LONGEST_VARINT
         messages/templates.py _MOST_KEYS _MOST_OF_A_KEY _MOST_BYTES
         messages/transform_decoder.py _MOST_KEPT _LARGEST_TEMPLATE
-        server/followers/follower.py MOST_WAITING
+        server/followers/follower.py MOST_WAITING MOST_BEHIND
         server/tickets.py _MOST_REMOVED
         session/robot/motion_recorder.py MOST_NUMBERS
         sources/bag/file_bytes.py _MOST_AHEAD

@@ -118,3 +118,13 @@ test("a page that is left asks no more", async () => {
   await pass(100);
   assert.deepEqual(server.asked, []);
 });
+
+test("pages of one server come to another one at different moments", async () => {
+  const random = mock.method(Math, "random", () => 0.5);
+  const { server, retries, lose } = page();
+  retries.spread = 900;
+  lose();
+  await pass(3);
+  assert.deepEqual(server.asked, [0.6, 2.1]);
+  random.mock.restore();
+});

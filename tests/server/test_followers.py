@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
@@ -17,7 +18,7 @@ from inside import session_of
 from live_peers import WAIT
 from page_rows import PageRows, decode
 from patience import until
-from protocol_client import ROW_PATCH, ProtocolClient
+from protocol_client import CAMERA_ASKED, ROW_PATCH, ProtocolClient
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 from websockets.typing import Subprotocol
@@ -26,6 +27,7 @@ from zenoh_peer import ZenohPeer
 from sambot_viz import UsageError, Visualizer
 from sambot_viz.options import Options
 from sambot_viz.server.channel import SUBPROTOCOL
+from sambot_viz.server.followers.follower import MOST_BEHIND
 from sambot_viz.server.followers.start import follow
 from sambot_viz.server.followers.wire import Label
 from sambot_viz.server.listener import Listener, listen
@@ -146,6 +148,9 @@ def test_a_follower_shows_the_scene_and_the_moved_joint_of_its_origin(
     here = protocol(origin.server.viser.get_port())
     client = follower().page()
     client.wait_until(lambda: nodes(client) == nodes(here) != set())
+    # The view of the config, as each new page is asked for it.
+    asked = [m.fields for m in client.messages if m.type == CAMERA_ASKED]
+    assert asked[-1]["camera"]["look_at"] == pytest.approx([0.0, 0.0, 0.0], abs=1.0)
     here_mark, mark = here.mark(), client.mark()
     origin.set_joint_positions({LEFT: 1.0})
     client.wait_until(lambda: client.rows[f"j/{LEFT}"]["value"] == pytest.approx(1.0))
@@ -238,6 +243,35 @@ def test_a_lost_frame_is_made_good_by_a_snapshot_that_disturbs_no_page(
     client.wait_until(lambda: client.rows[f"j/{LEFT}"]["value"] == 1.0, WAIT)
     client.wait_until(lambda: len(moved_since(client, mark)) == 1)
     assert not [m.type for m in client.since(mark) if "props" in m.fields]
+
+
+def test_a_slow_follower_gets_the_newest_and_no_queue(
+    make_viz: Callable[..., Visualizer],
+    place: str,
+    follower: Callable[..., FollowerServer],
+) -> None:
+    origin = make_viz(broadcast=place)
+    server = follower()
+    client = server.page()
+    mark = client.mark()
+    busy = threading.Event()
+    loop = server.listener.viser.get_event_loop()
+    loop.call_soon_threadsafe(busy.wait, WAIT)
+    other = follower().page()
+    other_mark, steps = other.mark(), MOST_BEHIND + 20
+    for number in range(1, steps + 1):
+        origin.set_joint_positions({LEFT: number / 1000})
+        # Each is sent by itself.
+        other.wait_until(
+            lambda number=number: len(moved_since(other, other_mark)) == number
+        )
+    busy.set()
+    client.wait_until(
+        lambda: client.rows[f"j/{LEFT}"]["value"] == pytest.approx(steps / 1000), WAIT
+    )
+    client.settle(server.listener.viser)
+    assert 0 < len(moved_since(client, mark)) <= MOST_BEHIND
+    assert poses(client) == poses(other)
 
 
 def test_an_origin_that_ends_leaves_its_last_picture_and_the_next_one_replaces_it(

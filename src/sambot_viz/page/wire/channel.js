@@ -161,13 +161,18 @@ export function mayChange() {
 
 /** Take rows from now on. @param {string} [address] of the server */
 export function connect(address = window.sambotSocket || "") {
+  let back = false;
   socket = new Socket(address, {
     take: (part) => {
       if (part.picture) pictures.take(part.picture);
-      else if (part.of === "camera") takeCamera(part);
-      else rows.take(part.of, part);
+      else if (part.of === "camera") {
+        // A follower does not know that the page has a camera already, and keeps it.
+        takeCamera(back && rows.data(FOLLOWS) ? { ...part, camera: null } : part);
+        back = false;
+      } else rows.take(part.of, part);
     },
     lost: () => {
+      back = true;
       loseCamera();
       // Who hears it notes how things were, and holds edits back.
       rows.notify(CUT);

@@ -35,6 +35,9 @@ ASK_SPREAD = 0.3
 """Followers that lack the same ask within so long, by chance [s]."""
 LONGEST_ANSWER = 30.0
 """An origin that has not answered by then is asked again [s]."""
+MOST_BEHIND = 100
+"""Frames that wait for a follower that is slow, about two seconds of a robot; after
+more of them it goes on with what is there then."""
 MOST_WAITING = 1000
 """Frames that wait for a snapshot; of more, another one is asked for."""
 _log = logger(__name__)
@@ -75,7 +78,9 @@ class Relay:
         """Take what is broadcast there, from now on."""
         self._session, self._is_asking = session, False
         self._origins.clear()
-        session.subscribe(self._place.frames, False, self._take_frame, self._too_large)
+        session.take_frames(
+            self._place.frames, MOST_BEHIND, self._take_frame, self._too_large
+        )
         session.watch(self._place.origins, self._take_origin, self._look)
 
     def cut(self, why: str) -> None:

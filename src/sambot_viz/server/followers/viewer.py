@@ -18,6 +18,7 @@ from websockets.protocol import State
 from sambot_viz.server.connections.connection import ClientContext, Connection
 from sambot_viz.server.connections.page_files import VISER_PROTOCOL
 from sambot_viz.server.connections.rate_limit import TokenBucket
+from sambot_viz.session.clients.viser_camera import VISER_FIRST_POSITION
 
 NAME = "Followers"
 """What the others read of it."""
@@ -25,7 +26,7 @@ _CAMERA = msgspec.msgpack.encode(
     {
         "type": "ViewerCameraMessage",
         "wxyz": (0.5, -0.5, -0.5, 0.5),
-        "position": (3.0, 0.0, 0.0),
+        "position": VISER_FIRST_POSITION,
         "fov": 0.785,
         "near": 0.01,
         "far": 1000.0,
@@ -35,7 +36,8 @@ _CAMERA = msgspec.msgpack.encode(
         "up_direction": (0.0, 0.0, 1.0),
     }
 )
-"""A page is a client when it has said where its camera is."""
+"""A page is a client when it has said where its camera is: that of one that has just
+been opened, so that it is asked for the view of the config."""
 
 Take = Callable[[str | bytes], object]
 

@@ -5,7 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, Protocol
 
-from sambot_viz.sources.zenoh.readings import at_once, in_a_thread
+from sambot_viz.sources.zenoh.readings import (
+    OnSample,
+    at_once,
+    in_a_thread,
+    waiting_room,
+)
 from sambot_viz.sources.zenoh.session import ZenohDeclaration, ZenohSession
 
 
@@ -23,6 +28,20 @@ class BroadcastSession(ZenohSession):
     def frames(self, key: str) -> FramePublisher:
         """Begin to publish on a key."""
         return self._session.declare_publisher(key)
+
+    def take_frames(
+        self, key: str, most: int, take: OnSample, on_large: Callable[[int], Any]
+    ) -> None:
+        """Take what is published on a key from now on.
+
+        Args:
+            key: as of `frames`.
+            most: so many wait until they are taken; the oldest give way.
+            take: gets them.
+            on_large: gets the size of those that are too large [bytes].
+        """
+        subscriber = self._session.declare_subscriber(key, waiting_room(most))
+        self._readings.add(subscriber, take, on_large)
 
     def on_question(
         self, key: str, asked: Callable[[Callable[[bytes], object]], object]

@@ -112,12 +112,12 @@ class ZenohReadings:
             reading.take(*content_of(sample))
 
 
-def waiting_room() -> Any:
-    """Return where the messages of a subscriber wait."""
+def waiting_room(most: int = _MOST_WAITING) -> Any:
+    """Return where the messages of a subscriber wait, at most so many."""
     import zenoh
 
     library: Any = zenoh
-    return library.handlers.RingChannel(_MOST_WAITING)
+    return library.handlers.RingChannel(most)
 
 
 def content_of(sample: Any) -> tuple[str, bytes, bytes]:
