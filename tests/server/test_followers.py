@@ -280,14 +280,18 @@ def test_an_origin_that_ends_leaves_its_last_picture_and_the_next_one_replaces_i
     follower: Callable[..., FollowerServer],
 ) -> None:
     origin = make_viz(broadcast=place)
-    client = follower().page()
+    server = follower()
+    client = server.page()
     there = nodes(client)
     origin.stop()
     client.wait_until(lambda: "The origin has ended" in trouble(client), WAIT)
     assert nodes(client) == there
     again = make_viz(broadcast=place)
     client.wait_until(lambda: follows(client), WAIT)
+    # The connection to viser may be behind that of the rows.
+    client.settle(server.listener.viser)
     client.wait_until(lambda: nodes(client) == there)
+    client.settle(server.listener.viser)
     mark = client.mark()
     again.set_joint_positions({LEFT: 1.0})
     client.wait_until(lambda: len(moved_since(client, mark)) == 1)

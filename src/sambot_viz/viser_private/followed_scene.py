@@ -6,6 +6,8 @@ comes later gets what is there then, and a slow page the newest.
 
 from __future__ import annotations
 
+import itertools
+import struct
 from collections.abc import Iterable, Sequence
 from types import SimpleNamespace
 from typing import Any, cast
@@ -25,7 +27,7 @@ from sambot_viz.viser_private.moving_poses import (
     FRAME,
     Move,
     MovingPoses,
-    unpacked_poses,
+    Value,
 )
 from sambot_viz.viser_private.outgoing import MORE_FOLLOWS, broadcast_buffer
 
@@ -239,3 +241,35 @@ def _filled(value: Any, arrays: Sequence[memoryview]) -> Any:
     if isinstance(value, list):
         return [_filled(part, arrays) for part in cast("list[Any]", value)]
     return value
+
+
+def unpacked_poses(content: bytes) -> list[tuple[int, Value]]:
+    """Return what has moved, from the content of a frame of poses.
+
+    Returns:
+        The number of each pose, and its value: of four numbers or three.
+
+    Raises:
+        ValueError: it is no such content.
+    """
+    numbers: list[int] = []
+    number = shift = place = 0
+    while place < len(content):
+        byte = content[place]
+        place += 1
+        if byte == 0 and shift == 0:
+            break
+        number |= (byte & 127) << shift
+        shift += 7
+        if byte < 128:
+            numbers.append(number)
+            number = shift = 0
+    lengths = [3 if number % 2 else 4 for number in numbers]
+    try:
+        values = iter(struct.unpack(f"<{sum(lengths)}d", content[place:]))
+    except struct.error as error:
+        raise ValueError(f"not a frame of poses: {error}") from error
+    return [
+        (number, tuple(itertools.islice(values, length)))
+        for number, length in zip(numbers, lengths, strict=True)
+    ]

@@ -215,38 +215,6 @@ def packed_numbers(numbers: Iterable[int]) -> bytes:
     return bytes(packed)
 
 
-def unpacked_poses(content: bytes) -> list[tuple[int, Value]]:
-    """Return what has moved, from the content of a frame of poses.
-
-    Returns:
-        The number of each pose, and its value: of four numbers or three.
-
-    Raises:
-        ValueError: it is no such content.
-    """
-    numbers: list[int] = []
-    number = shift = place = 0
-    while place < len(content):
-        byte = content[place]
-        place += 1
-        if byte == 0 and shift == 0:
-            break
-        number |= (byte & 127) << shift
-        shift += 7
-        if byte < 128:
-            numbers.append(number)
-            number = shift = 0
-    lengths = [3 if number % 2 else 4 for number in numbers]
-    try:
-        values = iter(struct.unpack(f"<{sum(lengths)}d", content[place:]))
-    except struct.error as error:
-        raise ValueError(f"not a frame of poses: {error}") from error
-    return [
-        (number, tuple(itertools.islice(values, length)))
-        for number, length in zip(numbers, lengths, strict=True)
-    ]
-
-
 def _track_of(state: Any, kind: str) -> _Track | None:
     return getattr(state, _TRACKS[kind], None)
 
