@@ -8,12 +8,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
-import yaml
 
-from sambot_viz.commands.command_line import parse
 from sambot_viz.commands.index import of_folder
-from sambot_viz.commands.show import parser
-from sambot_viz.server.readiness import ANSWERS, READY
 
 
 @pytest.mark.parametrize("name", ["sambot-viz.service", "sambot-viz@.service"])
@@ -54,24 +50,3 @@ def test_the_file_of_a_robot_is_one_for_the_index_too(
     (robot,) = of_folder(tmp_path)
     assert robot.shown == "https://lab.example.org/turtle/"
     assert robot.asked == "http://127.0.0.1:8081/turtle"
-
-
-def test_pods_are_asked_where_the_program_answers(repository: Path) -> None:
-    text = (repository / "deploy" / "kubernetes" / "robots.yaml").read_text("utf-8")
-    service, pods = yaml.safe_load_all(text)
-    (container,) = pods["spec"]["template"]["spec"]["containers"]
-    words = [word.replace("$(POD_NAME)", "robots-0") for word in container["args"]]
-    options = parse(parser(), words)[1]
-    entry = (repository / "deploy" / "Dockerfile").read_text("utf-8")
-    (port,) = container["ports"]
-    assert f'"--port", "{port["containerPort"]}"' in entry
-    assert (options.host, service["spec"]["ports"][0]["port"]) == ("0.0.0.0", 8080)
-    asked = [container[f"{of}Probe"]["httpGet"] for of in ("liveness", "readiness")]
-    assert [one["path"] for one in asked] == [ANSWERS, READY]
-    assert {one["port"] for one in asked} == {port["name"]}
-    labels = pods["spec"]["template"]["metadata"]["labels"]
-    assert service["spec"]["selector"] == pods["spec"]["selector"]["matchLabels"]
-    assert labels == service["spec"]["selector"]
-    assert service["metadata"]["name"] == pods["spec"]["serviceName"]
-    volumes = {one["name"] for one in pods["spec"]["template"]["spec"]["volumes"]}
-    assert {one["name"] for one in container["volumeMounts"]} == volumes
