@@ -198,3 +198,26 @@ def test_many_requests_leave_the_view_free(
     assert not any(p.requests for p in session_of(viz).roles.people.values())
     people(user, "Take back control from Pupil 7")
     user.keys("Escape")
+
+
+def test_with_turns_a_viewer_reads_the_place_in_the_queue(
+    sam_bot: Robot, open_viewer: Open, protocol: Callable[..., ProtocolClient]
+) -> None:
+    with Visualizer(sam_bot, presenter="", slot=240.0, look="rviz") as viz:
+        first, second = (protocol(viz.viser.get_port()) for _ in range(2))
+        for client in (first, second):
+            client.wait_until(lambda client=client: "role/me" in client.rows)
+            client.act("role/request", "")
+            client.wait_until(
+                lambda client=client: any(
+                    client.row("role/me")["value"][key]
+                    for key in ("control", "requests")
+                )
+            )
+        user = ready(open_viewer(viz.url)).user
+        user.click("button", "View only · Request control")
+        user.reads("You are number 2 in the queue")
+        user.click("button", re.compile(r"^View only · second, \d+ min$"))
+        user.reads("You wait for control: second, ")
+        user.click("button", "Cancel the request", ("dialog", "People"))
+        user.reads("Control passes to the next after 4 min.")
