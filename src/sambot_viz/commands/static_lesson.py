@@ -126,7 +126,8 @@ class _Robots:
         if model is None:
             return ""
         if model not in self._pages:
-            name = f"robot-{len(self._pages) + 1}.html"
+            number = 1 + sum(bool(page) for page in self._pages.values())
+            name = f"robot-{number}.html"
             self._pages[model] = name if self._write(model, self._folder / name) else ""
         return self._pages[model]
 
