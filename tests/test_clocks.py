@@ -36,6 +36,7 @@ MAY = {
     "support/patience.py": "waits for all tests",
     "commands/test_live.py": "drives a robot as long as a command listens",
     "server/test_server.py": "holds a save up, which another one may wait for",
+    "support/a_class.py": "waits with a deadline",
     "support/protocol_client.py": "waits with a deadline, and notes when frames came",
     "support/a_jupyter.py": "waits for another program",
     "support/browser_input.py": "moves a mouse as fast as a hand does",

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 from sambot_viz import limits
-from sambot_viz.edits import Extent, SourceFile
-from sambot_viz.errors import Edit, Place, Problem, UsageError
+from sambot_viz.edits import SourceFile
+from sambot_viz.errors import Problem, UsageError
 from sambot_viz.panels.command import FLAG, TEXT, Argument, command
+from sambot_viz.panels.marked_problems import marked, problem_id
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.problems.problems_panel import without_folders
 from sambot_viz.panels.rows.row import Answer, Data, FileContent, Json, Row
@@ -138,7 +138,10 @@ class ModelPanel(Panel):
         if buffer.why or is_new:
             return None
         source = SourceFile(buffer.text, "utf-8")
-        made = [self._problem(p, source) for p in self._problems_of(buffer.name)]
+        made = [
+            marked(p, source, folders=self._folders, can_fix=self._can_fix(p))
+            for p in self._problems_of(buffer.name)
+        ]
         return {"file": buffer.name, "version": buffer.version, "problems": made}
 
     def _expanded(self) -> Json:
@@ -171,33 +174,6 @@ class ModelPanel(Panel):
     def _problems_of(self, name: str) -> Iterator[Problem]:
         listed = self._problems.shown.value.listed[: limits.PROBLEM_ROWS.value]
         return (p for p in listed if self._text.name_of(p.file) == name)
-
-    def _problem(self, problem: Problem, source: SourceFile) -> Json:
-        start, end = _extent(problem, source)
-        words = problem.message
-        hint = f"To fix it: {problem.hint}" if problem.hint else ""
-        if not self._folders:
-            words, hint = (str(without_folders(said)) for said in (words, hint))
-        return {
-            "id": _id(problem),
-            "from": to_units(source.text, start),
-            "to": to_units(source.text, end),
-            "severity": problem.severity,
-            "message": words,
-            "hint": hint,
-            "edits": self._edits(problem, source),
-            "fix": self._can_fix(problem),
-        }
-
-    def _edits(self, problem: Problem, source: SourceFile) -> Json:
-        """Return the edits of a problem in this text; None where it has others."""
-        edits, here = problem.edits, hash(source.text)
-        if not edits or any(edit.seen != here for edit in edits):
-            return None
-        return [
-            [to_units(source.text, e.start), to_units(source.text, e.end), e.text]
-            for e in sorted(set(edits), key=_start)
-        ]
 
     def _can_fix(self, problem: Problem) -> bool:
         files = {edit.file for edit in problem.edits}
@@ -323,9 +299,9 @@ class ModelPanel(Panel):
         self._text.replace(name, version, start, end, new, more=more)
 
     @command("model/fix", TEXT, name="Apply")
-    def _fix(self, problem_id: str) -> Answer:
+    def _fix(self, mark: str) -> Answer:
         listed = self._problems.shown.value.listed
-        found = next((p for p in listed if _id(p) == problem_id), None)
+        found = next((p for p in listed if problem_id(p) == mark), None)
         if found is None or not found.edits:
             raise UsageError("this problem is no longer there")
         self._text.apply(found.edits)
@@ -371,29 +347,3 @@ class ModelPanel(Panel):
             self._want_written(name, buffer.taken(place))
         else:
             self._text.revert(name)
-
-
-def _start(edit: Edit) -> tuple[int, int]:
-    return edit.start, edit.end
-
-
-def _id(problem: Problem) -> str:
-    said = repr((problem.place, problem.code, problem.message))
-    return hashlib.blake2s(said.encode("utf-8", "replace"), digest_size=8).hexdigest()
-
-
-def _extent(problem: Problem, source: SourceFile) -> Extent:
-    """Return the marked text: the part that a fix replaces, a tag's name, or a line."""
-    here = hash(source.text)
-    place = Place(problem.file or "", problem.line or 1, problem.column)
-    start = min(source.offset(place), len(source.text))
-    begin = source.offset(Place(place.file, place.line))
-    for edit in problem.edits:
-        # A fix may change lines before, too.
-        if edit.seen == here and edit.end > edit.start >= begin:
-            return Extent(edit.start, edit.end)
-    tag = source.tag(start)
-    if tag is not None:
-        return Extent(start, tag.name.end)
-    line = source.text[start:].partition("\n")[0]
-    return Extent(start, start + len(line.rstrip()))
