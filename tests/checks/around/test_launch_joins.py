@@ -205,6 +205,16 @@ def test_a_name_that_nothing_reads_is_the_wrong_one(package: Path) -> None:
     assert apply_edits(problem.edits, launch.read_text()) == PYTHON
 
 
+def test_a_text_that_is_called_as_a_module(package: Path) -> None:
+    launch = package / "launch" / "all.launch.py"
+    path = 'PathJoinSubstitution([FindPackageShare("cart"), "launch", "a", launch])'
+    text = PYTHON.replace('LaunchConfiguration("world")', path)
+    launch.write_text(text)
+    problem = next(p for p in check(package) if "launch is used here" in p.message)
+    better = text.replace("launch])", "'launch'])")
+    assert apply_edits(problem.edits, text) == better
+
+
 def test_a_command_in_xml_without_a_blank(package: Path) -> None:
     (package / "launch" / "all.launch.py").unlink()
     (package / "launch" / "all.launch.xml").write_text(

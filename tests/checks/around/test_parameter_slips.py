@@ -102,6 +102,12 @@ def found(package: Path, file: str, right: str, wrong: str) -> Problem:
         (PARAMETERS, "debug: true", "debug: ture", "debug is the text ture"),
         (PARAMETERS, "radius: 0.1", "radius: 0,1", "radius is the text 0,1"),
         (PARAMETERS, "PathAlign.for", "PaathAlign.for", "FollowPath lists PathAlign"),
+        (
+            PARAMETERS,
+            "ros__parameters:\n    debug",
+            "ros_parameters:\n    debug",
+            "no ros",
+        ),
         (PARAMETERS, "topics:", "topiics:", "twist_mux has no topiics, but topics"),
         (PARAMETERS, "timeout:", "time_out:", "has no parameter time_out"),
         (EKF, "odom_frame: odom", "odom_frame: map", "map_frame and odom_frame are"),

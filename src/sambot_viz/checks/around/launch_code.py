@@ -230,7 +230,13 @@ def _advice(
     if module is not None:
         names = sorted(other for other in undefined if known.get(other) == module)
         return _imported(f"from {module} import {', '.join(names)}", file)
-    if name in _MODULES:
+    has_members = any(
+        isinstance(n, ast.Attribute)
+        and isinstance(n.value, ast.Name)
+        and n.value.id == name
+        for n in ast.walk(file.tree)
+    )
+    if name in _MODULES and (has_members or name not in _texts(file.tree)):
         return _imported(f"import {name}", file)
     near = nearest(name, sorted(own), 0.7) or nearest(name, known, 0.85)
     if name in _texts(file.tree):

@@ -79,8 +79,8 @@ def misspelt_key(around: Surroundings) -> Iterator[Problem]:
     """Report ros__parameters with a wrong letter."""
     users = {p.shown(path): user for p, path, user in parameter_files(around)}
     for file in around.yaml_files:
-        for key, place in _above_parameters(file) if file.shown in users else ():
-            user = users[file.shown]
+        for key, place in _above_parameters(file):
+            user = users.get(file.shown)
             named = f" ({where(user, place)})" if user else ""
             yield Problem.at(
                 place,
