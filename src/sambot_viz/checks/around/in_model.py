@@ -20,6 +20,7 @@ from sambot_viz.checks.around.sensors import (
     lidars_of_the_other,
     misspelt_frames,
     sensor_values,
+    sensors_twice,
     sensors_without_link,
     unknown_types,
 )
@@ -45,6 +46,7 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
     unknown_types,
     lidars_of_the_other,
     sensor_values,
+    sensors_twice,
     misspelt_frames,
     frames_of_sensors,
     unknown_libraries,

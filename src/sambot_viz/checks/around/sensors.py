@@ -157,6 +157,24 @@ def unknown_types(robot: Robot) -> Iterator[Problem]:
             )
 
 
+def sensors_twice(robot: Robot) -> Iterator[Problem]:
+    """Report a sensor that a link has twice under one name."""
+    first: dict[tuple[str, str], Element] = {}
+    for part in robot.gazebo:
+        for sensor in part.find_all("sensor") if part.tag == "gazebo" else ():
+            key = (part.get("reference") or "", sensor.get("name") or "")
+            other = first.setdefault(key, sensor)
+            if other is not sensor and other.place != sensor.place and all(key):
+                yield Problem.at(
+                    sensor.place,
+                    "warning",
+                    "gazebo-sensor",
+                    f"{key[0]} has the sensor {key[1]} twice "
+                    f"({where(other.place, sensor.place)}): Gazebo makes only one",
+                    "delete one of the two, or give it another name",
+                )
+
+
 def _typeless(sensor: Element, known: Container[str]) -> Problem:
     """Report a sensor without a type, or with the attribute in other letters."""
     hint: str | Fix = 'add type="…" with the kind of sensor, such as gpu_lidar'

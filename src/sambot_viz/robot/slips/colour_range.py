@@ -31,4 +31,5 @@ def in_unit_range(parts: Iterable[float]) -> tuple[str, str | None]:
     else:
         return "", None
     units = (part if part <= 1 else part / full for part in values)
-    return looks, " ".join(f"{max(part, 0.0):.3g}" for part in units)
+    # A component below 0 has a sign too many.
+    return looks, " ".join(f"{min(abs(part), 1.0):.3g}" for part in units)
