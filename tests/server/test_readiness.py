@@ -138,7 +138,8 @@ def page_of(process: subprocess.Popen[str], program: Program) -> ProtocolClient:
         with urlopen(asked, timeout=patience(60)) as joined:
             headers["Cookie"] = joined.headers["Set-Cookie"].partition(";")[0]
     client = ProtocolClient(address.port, headers=headers)
-    client.wait_until(lambda: "names/session" in client.rows)
+    # The program may still import, on a busy machine for long.
+    client.wait_until(lambda: "names/session" in client.rows, 60.0)
     return client
 
 
