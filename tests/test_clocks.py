@@ -42,6 +42,7 @@ MAY = {
     "support/browser_input.py": "moves a mouse as fast as a hand does",
     "support/crowd.py": "measures, for benchmarks",
     "support/data_loads.py": "measures, for benchmarks",
+    "support/docs_parts/make_pictures.py": "films a page at a rate",
     "support/steps.py": "measures, for benchmarks",
     "support/usage.py": "measures, for benchmarks",
     "support/slow_line.py": "is a slow line",
