@@ -9,11 +9,13 @@ import shutil
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from inside import signals_of
 from patience import patience
 from protocol_client import CAMERA_ASKED, ProtocolClient
+from watchfiles import Change
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.errors import Problem
@@ -103,6 +105,29 @@ def test_a_save_is_reported_once_whichever_way_the_editor_saves(
     save(path, "new")
     assert changes.get(timeout=patience(10.0)) == {path}
     assert path.read_text("utf-8") == "new"
+
+
+def test_only_a_file_that_was_not_there_appears(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What is missing is looked for again then, which a save is no reason for."""
+    known, new = tmp_path / "model.urdf", tmp_path / "mesh.stl"
+    known.write_text("old", "utf-8")
+    reported = {(Change.added, str(tmp_path / n)) for n in (known, new, ".x.swp")}
+
+    def report(*_: object, stop_event: threading.Event, **__: object) -> Any:
+        yield reported
+        stop_event.wait(patience(30.0))
+
+    monkeypatch.setattr(watch, "watch", report)
+    told: queue.Queue[frozenset[Path]] = queue.Queue()
+    watched = Watched(frozenset([known]))
+    watcher = FileWatcher(
+        lambda: watched, lambda _, appeared: told.put(appeared), lambda _: None
+    )
+    watcher.start()
+    assert told.get(timeout=patience(10.0)) == {new}
+    watcher.close()
 
 
 @pytest.mark.parametrize("moment", range(1, 6))

@@ -82,7 +82,9 @@ def _track_by_content(lesson: Lesson, path: Path) -> str:
 
 def _models(folder: Path, name: str) -> Iterator[Path]:
     """Give the files of a name at and below a folder; what is built is left out."""
-    for file in (folder / name, *sorted(folder.glob(f"*/**/{name}"))):
+    if (folder / name).is_file():
+        yield folder / name
+    for file in sorted(folder.glob(f"*/**/{name}")):
         if file.is_file() and BUILT.isdisjoint(file.relative_to(folder).parts):
             yield file
 

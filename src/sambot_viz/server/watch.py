@@ -159,6 +159,13 @@ class FileWatcher:
         if self._asked_at is not None:
             self._list(min(self._looked, self._asked_at - _TOLD_LATE))
         before, self._known = self._known, self._settled_stamps()
+        # A save may put another file in the place of one that was there; what it is
+        # written into until then has a hidden name.
+        appeared = frozenset(
+            path
+            for path in appeared
+            if before.get(path) is None and not path.name.startswith(".")
+        )
         self._looked = time.time_ns() - _CLOCK_STEP
         changed = frozenset(p for p, now in self._known.items() if before[p] != now)
         if (changed or appeared) and not self._stop.is_set():
