@@ -82,12 +82,10 @@ test("what a message has brought is drawn, however seldom the page draws", () =>
   assert.ok(!settling.picture(10_000));
   settling.note(10_000);
   // viser takes a message up in one picture and shows it in the next; each takes a second here.
-  assert.deepEqual([11_000, 12_000, 13_000, 14_000].map((now) => settling.picture(now)), [
-    true,
-    true,
-    true,
-    false,
-  ]);
+  assert.deepEqual(
+    [11_000, 12_000, 13_000, 14_000].map((now) => settling.picture(now)),
+    [true, true, true, false],
+  );
   settling.note(20_000);
   const often = [...Array(20).keys()].map((n) => settling.picture(20_000 + 20 * n));
   assert.ok(often.every(Boolean));
