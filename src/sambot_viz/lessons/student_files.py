@@ -42,7 +42,7 @@ class HandedIn:
         """Return the folder with the files of a step; None for that of its model."""
         if not step.model or self.folder is None:
             return self.folder
-        return _folder_of(self.model_of(step), self.folder)
+        return folder_of(self.model_of(step), self.folder)
 
 
 def handed_in(lesson: Lesson, path: Path) -> HandedIn:
@@ -61,7 +61,7 @@ def handed_in(lesson: Lesson, path: Path) -> HandedIn:
     if path.is_dir():
         for name, track in tracks.items():
             for file in _models(path, track.model):
-                return HandedIn(_folder_of(file, path), name, file, False)
+                return HandedIn(folder_of(file, path), name, file, False)
         name, track = next(iter(tracks.items()))
         return HandedIn(path, name, path / track.model, False)
     for name, track in tracks.items():
@@ -89,7 +89,7 @@ def _models(folder: Path, name: str) -> Iterator[Path]:
             yield file
 
 
-def _folder_of(model: Path, folder: Path) -> Path:
+def folder_of(model: Path, folder: Path) -> Path:
     """Return the package of a model that is below a folder, else the folder."""
     package = package_around(model)
     inside = package is not None and package.resolve().is_relative_to(folder.resolve())

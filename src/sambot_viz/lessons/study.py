@@ -20,7 +20,7 @@ from sambot_viz.lessons.evaluation import (
 from sambot_viz.lessons.lesson import Lesson, LessonStep
 from sambot_viz.lessons.markdown import TextBlock, blocks
 from sambot_viz.lessons.progress import Progress
-from sambot_viz.lessons.student_files import BUILT, HandedIn, handed_in
+from sambot_viz.lessons.student_files import BUILT, HandedIn, folder_of, handed_in
 from sambot_viz.lessons.work import Work
 from sambot_viz.robot.model import Robot
 
@@ -65,6 +65,7 @@ class Study:
         self.progress = Progress(folder, lesson.name)
         self.folder = folder.absolute()
         self.trusted = trusted
+        self._model: Path | None = None
 
     @classmethod
     def begun(
@@ -236,8 +237,14 @@ class Study:
         self.progress.save()
 
     def _handed_in(self) -> HandedIn:
-        found = handed_in(self.lesson, self.folder)
-        if found.track == self.track:
-            return found
-        model = self.folder / self.lesson.tracks[self.track].model
-        return HandedIn(self.folder, self.track, model, False)
+        # To look through all folders for a model that is where it was takes long.
+        known = self._model
+        if known is None or not known.is_file():
+            found = handed_in(self.lesson, self.folder)
+            own = found.track == self.track
+            known = found.model if own else None
+            self._model = known
+        if known is None:
+            model = self.folder / self.lesson.tracks[self.track].model
+            return HandedIn(self.folder, self.track, model, False)
+        return HandedIn(folder_of(known, self.folder), self.track, known, False)
