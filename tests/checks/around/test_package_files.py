@@ -274,6 +274,18 @@ def test_what_each_manifest_needs_is_told(copied: Copied, line: str) -> None:
     assert check(package / MODEL) == []
 
 
+def test_a_build_type_is_that_of_the_tool_that_the_package_needs(
+    copied: Copied,
+) -> None:
+    folder = copied("gz")
+    manifest = folder / MANIFEST
+    text = manifest.read_text()
+    manifest.write_text(text.replace("<build_type>ament_cmake</build_type>", ""))
+    (folder / CMAKE).unlink()
+    (found,) = (p for p in check(folder / MODEL) if p.code == "package-build-type")
+    assert "<build_type>ament_cmake</build_type>" in found.hint
+
+
 def test_a_misspelt_dependency_on_a_package_that_is_used(copied: Copied) -> None:
     package = copied("gz")
     manifest = package / MANIFEST

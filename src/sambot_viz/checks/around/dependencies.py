@@ -26,7 +26,10 @@ def _started() -> set[str]:
 
 
 def _depends(around: Surroundings) -> list[Element]:
-    root = around.manifest
+    return _depends_of(around.manifest)
+
+
+def _depends_of(root: Element | None) -> list[Element]:
     children = root.children if root is not None else []
     return [element for element in children if element.tag.endswith("depend")]
 
@@ -92,8 +95,8 @@ def missing_dependencies(around: Surroundings) -> Iterator[Problem]:
 
     One that lists fewer than two of these leaves them to other packages.
     """
-    root, depends = around.manifest, _depends(around)
-    named = {element.text.strip() for element in root.children} if root else set[str]()
+    depends = _depends(around)
+    named = {element.text.strip() for element in depends}
     started = _starts(around)
     # Two packages that depend on each other cannot be built.
     own = around.files.name
@@ -154,8 +157,8 @@ def _brought(around: Surroundings, named: set[str]) -> set[str]:
         workspace = around.files.workspace
         package = workspace.named(name) if name not in found and workspace else None
         found.add(name)
-        if package is not None and package.manifest is not None:
-            waiting += [e.text.strip() for e in package.manifest.children]
+        if package is not None:
+            waiting += [e.text.strip() for e in _depends_of(package.manifest)]
     brought = {each for name in found for each in vocabulary("packages").get(name, ())}
     return found | brought
 

@@ -111,7 +111,8 @@ def _without_build_type(root: Element, around: Surroundings) -> Iterator[Problem
     """Report a package that ament is to build, and that colcon gives to catkin."""
     uses = {e.text.strip() for e in root.children if e.tag.endswith("depend")}
     cmake = around.files.text("CMakeLists.txt")
-    kind = "ament_python" if cmake is None else "ament_cmake"
+    needs_cmake = around.setup is None and "ament_cmake" in uses
+    kind = "ament_cmake" if cmake is not None or needs_cmake else "ament_python"
     by_ament = "ament_cmake" in (cmake or "") or any("ament_" in use for use in uses)
     whole = all(root.find(tag) is not None for tag in _REQUIRED)
     if "catkin" in uses or not whole or not (by_ament or around.setup is not None):
