@@ -32,7 +32,8 @@ __all__ = ["COARSE", "Pixels", "ViewerPage", "viewer_url"]
 
 _NO_VIEW = "this page has no view: open it with view=True"
 Matrix = npt.NDArray[np.float64]
-_HAS_ROWS = "document.querySelector('#sambot [role=row]')"
+_HAS_ROWS = "document.querySelector('#sambot [role=row], #sambot .panel.lesson h2')"
+"""A lesson is in front of the other panels in a narrow window."""
 _HAS_SCENE = (
     "__viserMutable.canvas && __viserMutable.scene && !__viserMutable.firstMessageBatch"
 )

@@ -20,7 +20,8 @@ from user import User
 COARSE = 0.1
 """Pixels per CSS pixel where nobody looks: software takes a small part of the time."""
 Pixels = npt.NDArray[np.uint8]
-_REFUSED = "net::ERR_CONNECTION_REFUSED"
+_STOPPED = ("net::ERR_CONNECTION_REFUSED", "status of 503 (Service Unavailable)")
+"""What a page is answered while its server stops, and after that."""
 
 
 def viewer_url(
@@ -94,8 +95,8 @@ class WindowPage:
     def errors(self) -> list[str]:
         """What went wrong in the page: exceptions, console errors, failed requests.
 
-        Its own server refuses connections only when a test has stopped it already;
-        whether the page still asks it for something then is chance.
+        Its own server refuses connections only when a test has stopped it; whether the
+        page still asks it for something then is chance.
         """
         lines = [m for m in self.page.console if m.level in ("error", "assert")]
         errors = [
@@ -104,7 +105,8 @@ class WindowPage:
             *(f"{url}: {reason}" for url, reason in self.page.failures),
         ]
         own = urlsplit(self.url).netloc
-        return [e for e in errors if not (_REFUSED in e and f"//{own}/" in e)]
+        stopped = [e for e in errors if any(said in e for said in _STOPPED)]
+        return [e for e in errors if not (e in stopped and f"//{own}/" in e)]
 
     def foreign_requests(self) -> list[str]:
         """The addresses asked for that are not on the viewer's own server."""
