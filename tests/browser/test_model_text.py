@@ -106,7 +106,10 @@ def test_what_another_program_has_changed_too_is_chosen_and_undone(
     focus = "document.querySelector('.model .cm-content').focus()"
     page.evaluate(focus)
     user.keys("Control+Home", "ArrowDown", "End")
+    line = "document.querySelector('.model .cm-activeLine')?.textContent"
+    viewer.wait_for(f"{line}.includes('name=\"hull\"')")
     page.keyboard.insert("<!-- mine -->")
+    viewer.wait_for(f"{line}.endsWith('<!-- mine -->')")
     user.reads("Not saved")
     # The same line, and others, of which nobody is asked.
     model.write_text(GOOD.replace("hull", "body"))
