@@ -19,7 +19,6 @@ from sambot_viz.lessons.progress import PROGRESS_FILE
 from sambot_viz.lessons.read_lesson import open_lesson
 from sambot_viz.lessons.study import Study
 from sambot_viz.options import Options
-from sambot_viz.robot import load as load_module
 
 RIGHT = (
     '<robot name="sam_bot"><link name="base_link"><visual><geometry>'
@@ -301,35 +300,31 @@ def test_a_lesson_may_keep_the_fixes_of_problems_away(
     assert any(problem.edits for problem in problems.value.listed) is fixes
 
 
-def test_each_text_is_loaded_once(
-    learn: Learn, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_each_text_is_loaded_once(learn: Learn) -> None:
     """The view, the lesson, and what follows the saved file take the same robot."""
     desk = learn(WRONG)
     client, session = desk.client, session_of(desk.viz)
+    sessions, model = desk.viz.server.sessions, desk.folder / "robot.urdf"
+
+    def known() -> object:
+        text = sessions.model_text
+        assert text is not None
+        with session.lock:
+            return text.known(model, text.texts, True)
+
     client.act("model/show", True)
     client.wait_until(lambda: "model/text" in client.rows)
-    loads: list[str] = []
-    load = load_module.load_model
-
-    def counted(*arguments: Any) -> Any:
-        loads.append("a load")
-        return load(*arguments)
-
-    monkeypatch.setattr(load_module, "load_model", counted)
+    assert known() is None
     at = WRONG.index("0.2")
     client.act("model/type", "robot.urdf", 0, at, at + 3, "0.18", False)
     client.wait_until(lambda: not desk.faults)
-    assert len(loads) == 1
+    robot = session.robot.model
+    assert robot is not None and known() is robot
     client.act("model/save", "robot.urdf")
-    client.wait_until(lambda: desk.passed == [True, False])
-    client.wait_until(lambda: session.saved.value)
-    at = RIGHT.index("0.18")
-    client.act("model/type", "robot.urdf", 1, at, at + 4, "<", False)
-    client.wait_until(lambda: any("cannot be read" in one for one in desk.faults))
-    assert len(loads) == 2
-    client.act("model/type", "robot.urdf", 2, at, at + 1, "0.18", False)
-    client.wait_until(lambda: not desk.faults)
+    # What follows the files takes it too.
+    client.wait_until(lambda: sessions.robot is robot)
+    assert known() is robot
     # What another program saves is read.
     desk.write(WRONG)
     client.wait_until(lambda: any("0.42 0.31 0.2" in one for one in desk.faults))
+    assert known() is None and session.robot.model is not robot
