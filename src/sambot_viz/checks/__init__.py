@@ -36,13 +36,13 @@ def check(
     Args:
         path: a URDF, SDF or xacro file, a package folder, or a folder of packages.
         xacro_args: values for xacro's arguments.
-        package_path: folders in which packages are looked for.
+        package_path: folders to search for packages.
         workspace: folders of packages that start the robot or have its parameters.
         trusted: False for a model of unknown origin, as for `load_robot`.
 
     Returns:
-        Errors first, then warnings, then notes; each in document order. Empty when
-        all is well. It never raises for a model that is broken or does not exist.
+        Errors first, then warnings, then notes; each in document order. Empty for a
+        sound model. Never raises for a broken or a missing model.
     """
     from sambot_viz.checks.checked import check_all
 
@@ -67,14 +67,14 @@ def check_robot(
     mesh: Callable[[Path], Mesh | Problem | None] | None = None,
     around: bool = True,
 ) -> list[Problem]:
-    """Find everything that is wrong with a robot that is already loaded.
+    """Find everything that is wrong with a loaded robot.
 
     Args:
         robot: the robot, with the problems found while loading.
-        path: the model as the user wrote it; default the robot's first file.
-        mesh: gives the mesh in a file, why it cannot be drawn, or None to leave it
-            out; default reads the file.
-        around: with what `check_around` finds.
+        path: the model as the user wrote it; by default the robot's first file.
+        mesh: returns the mesh in a file, the reason why RViz cannot draw it, or None to
+            leave it out; by default reads the file.
+        around: include the findings of `check_around`.
     """
     subject = subject_of(robot, path, mesh)
     found = [*robot.problems, *find_problems(subject, RULES)]
@@ -88,13 +88,13 @@ def check_around(
     workspace: Sequence[Path | str] = (),
     read: set[Path] | None = None,
 ) -> list[Problem]:
-    """Find what is wrong with the package of a model, and names that differ there.
+    """Find faults in the package of a model, and names that differ there.
 
     Args:
         robot: the robot.
         path: as for `check_robot`.
         workspace: as for `check`.
-        read: gets the files of the package that were looked for.
+        read: receives the files of the package that the check looked for.
     """
     from sambot_viz.checks.checked import problems_around
 

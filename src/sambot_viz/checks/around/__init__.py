@@ -1,10 +1,10 @@
-"""Names that must meet: the model against the files around it.
+"""Compare the model with the files around it: their names must match.
 
-The files are those of the model's package, and of the packages that start it or have
-its parameters: of robot_localization and Nav2, the bridge to Gazebo, launch files,
-CMakeLists.txt and setup.py. They are read as text; nothing is run. A finding is about
-two places that contradict each other, and names both: a name alone may be right for a
-robot or a node that is not looked at.
+The files belong to the model's package, and to the packages that start the model or
+have its parameters. They configure robot_localization, Nav2 and the bridge to Gazebo;
+launch files, CMakeLists.txt and setup.py are among them. The rules read them as text
+and run nothing. A finding names two places that contradict each other. One name alone
+proves nothing: it may be right for a robot or a node outside these packages.
 """
 
 from __future__ import annotations
@@ -32,18 +32,18 @@ _INCOMPLETE = (
 
 
 def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
-    """Report names and sizes that are written twice and differ."""
+    """Report names and sizes that two files give differently."""
     robot = subject.robot
     if not subject.packages and not robot.gazebo:
         return
-    # The imports are late: most models have nothing for these rules, and many are in
-    # no package.
+    # Import late: most models have nothing for these rules, and many have no package.
     from sambot_viz.checks.around.in_model import IN_MODEL, IN_MODEL_OF_ROS2
 
     if any(p.code in _INCOMPLETE for p in robot.problems):
-        # A part of the robot is missing, and with it what others name.
+        # A part of the robot is missing, with the links and joints that other files
+        # name.
         return
-    # Packages for the other ROS are not started together with that of the model.
+    # Nobody starts a package for the other ROS together with that of the model.
     is_ros1 = bool(subject.packages) and subject.packages[0].is_ros1
     packages = tuple(p for p in subject.packages if p.is_ros1 == is_ros1)
     left_out = IN_MODEL_OF_ROS2 if is_ros1 else ()
@@ -60,7 +60,7 @@ def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
 
 
 def wrong_files(package: Package) -> Iterator[Problem]:
-    """Report what is wrong in the launch files and parameters of a package alone."""
+    """Report faults in the launch files and parameters of a package without a model."""
     from sambot_viz.checks.around.rules import OF_FILES
     from sambot_viz.checks.around.surroundings import Surroundings
 
@@ -68,11 +68,11 @@ def wrong_files(package: Package) -> Iterator[Problem]:
 
 
 def built_wrongly(package: Package, robot: Robot | None) -> Iterator[Problem]:
-    """Report what is wrong with how a package is built and installed.
+    """Report faults in the build and the installation of a package.
 
     Args:
         package: the package.
-        robot: the robot whose meshes it may have.
+        robot: the robot; its meshes may be in the package.
     """
     from sambot_viz.checks.around.rules import OF_BUILD
     from sambot_viz.checks.around.surroundings import Surroundings
@@ -80,12 +80,12 @@ def built_wrongly(package: Package, robot: Robot | None) -> Iterator[Problem]:
     around = Surroundings(robot, (package,))
     yield from _found(OF_BUILD, around)
     if package.setup is not None and not package.is_ros1:
-        # The import is late: most packages have no setup.py.
+        # Import late: most packages have no setup.py.
         from sambot_viz.checks.around.in_setup import IN_SETUP
         from sambot_viz.checks.around.own_names import setup_name
 
         if any(setup_name(around)):
-            # What is installed under another name follows from that.
+            # A file that is installed under another name follows from that.
             return
         for rule in IN_SETUP:
             yield from rule(package.setup, around)
@@ -101,5 +101,5 @@ def _found(checks: Iterable[Check], around: Surroundings) -> Iterator[Problem]:
 
 
 def _is_part(robot: Robot) -> bool:
-    """True for a file that others include: what it lacks may be in those."""
+    """True for a file that others include: they may have what it lacks."""
     return any(p.code == "robot-without-name" for p in robot.problems)

@@ -30,7 +30,7 @@ _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 def misspelt_entries(around: Surroundings) -> Iterator[Problem]:
-    """Report keys and directions of a bridge that it does not know."""
+    """Report keys and directions that a bridge does not know."""
     for file in around.yaml_files:
         for entry in file.entries():
             if not any(key.endswith("type_name") for key in entry):
@@ -53,7 +53,7 @@ def misspelt_entries(around: Surroundings) -> Iterator[Problem]:
 
 
 def _direction(written: str) -> str | None:
-    """Return the direction that is meant: by its letters, or by who comes first."""
+    """Return the intended direction, by its letters or by which side comes first."""
     said = written.upper().replace("IGN", "GZ")
     near = nearest(said, DIRECTIONS, 0.7)
     both = said.find("GZ"), said.find("ROS")
@@ -108,7 +108,7 @@ def _misspelt_keys(entry: dict[str, Fact]) -> Iterator[Problem]:
 
 
 def _named_twice(entry: dict[str, Fact]) -> Iterator[Problem]:
-    """Report topic_name, which gives both names, beside one of the two."""
+    """Report topic_name, which sets both names, beside one of the two."""
     both = entry.get("topic_name")
     given = [key for key in ("ros_topic_name", "gz_topic_name") if key in entry]
     if both is None or not given:
@@ -127,7 +127,7 @@ def _named_twice(entry: dict[str, Fact]) -> Iterator[Problem]:
 
 
 def entries_outside_lists(around: Surroundings) -> Iterator[Problem]:
-    """Report files with topics of a bridge that are not a list."""
+    """Report files that give the topics of a bridge without a list."""
     for file in around.yaml_files:
         if any(key.value.startswith("ros__") for key, _ in _two_levels(file.root)):
             continue
@@ -165,7 +165,7 @@ def _is_entry(node: yaml.Node) -> bool:
 
 
 def _form(key: yaml.ScalarNode, below: yaml.Node | None) -> tuple[str, str]:
-    """The cause and the hint for an entry that is in no list of its own."""
+    """The cause and the hint for an entry outside a list."""
     if below is None:
         cause = 'no "- " is before the first key of the entry'
         return cause, f"write - {key.value}, and two blanks more before the others"
@@ -177,9 +177,9 @@ def _form(key: yaml.ScalarNode, below: yaml.Node | None) -> tuple[str, str]:
 
 
 def second_documents(around: Surroundings) -> Iterator[Problem]:
-    """Report a second YAML document in a file of which only the first is read.
+    """Report a second YAML document, which the bridge does not read.
 
-    That is a list for a bridge: of parameters, ROS reads all documents.
+    Only lists for a bridge: ROS reads all documents of a parameter file.
     """
     for package, path, _user in parameter_files(around):
         line = _second_document(package.text(path) or "")
@@ -212,7 +212,7 @@ def _second_document(text: str) -> int | None:
 
 
 def empty_parameters(around: Surroundings) -> Iterator[Problem]:
-    """Report files without content that are given to a node."""
+    """Report empty files that a launch file gives to a node."""
     for launch in around.launches:
         for node in launch.nodes:
             for fact in node.files:

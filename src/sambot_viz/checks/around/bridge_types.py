@@ -40,7 +40,7 @@ def counterpart(written: str) -> str | None:
 
 
 def unknown_bridge_types(around: Surroundings) -> Iterator[Problem]:
-    """Report types that are almost one that a bridge knows."""
+    """Report misspelt types, which a bridge does not know."""
     for entry in around.bridged:
         exchanged = next(_exchanged(entry), None)
         if exchanged is not None:
@@ -62,7 +62,7 @@ def unknown_bridge_types(around: Surroundings) -> Iterator[Problem]:
 
 
 def _exchanged(entry: BridgeEntry) -> Iterator[Problem]:
-    """Report a type that stands where another value of the entry belongs."""
+    """Report a type in the place of another value of the entry."""
     ros, gz = entry.ros_type, entry.gz_type
     for wrong, known in ((ros, frozenset(_PAIRS)), (gz, _WHOLE_GZ_TYPES)):
         for other in (ros, gz, entry.ros, entry.gz):
@@ -83,7 +83,7 @@ def _exchanged(entry: BridgeEntry) -> Iterator[Problem]:
 
 
 def _near_ros_type(written: str) -> str | None:
-    """The known type that is meant; None for a known one and for a quite other one."""
+    """The known type that a text misspells; None for a known or very different one."""
     known = {*_PAIRS}
     parts = [part for part in written.replace(".", "/").split("/") if part]
     if written in known or len(parts) < 2:
@@ -107,7 +107,7 @@ def _near_gz_type(written: str) -> str | None:
 
 
 def _near_name(name: str, names: Sequence[str]) -> str | None:
-    # Int32 is another type than UInt32, and no slip.
+    # Int32 and UInt32 are two types, not a misspelling.
     slips = names if name.isalpha() else ()
     same = (k for k in slips if is_one_slip(k.lower(), name.lower()))
     return (
@@ -116,7 +116,7 @@ def _near_name(name: str, names: Sequence[str]) -> str | None:
 
 
 def bridge_types(around: Surroundings) -> Iterator[Problem]:
-    """Report entries whose types do not fit each other, or what the model sends."""
+    """Report entries whose types do not fit each other, or the topic of the model."""
     topics = model_topics(around)
     carried = {bare(entry.gz.value) for entry in around.bridged}
     left = {t.kind for t in topics if not t.end.is_seldom and t.name not in carried}
@@ -138,14 +138,14 @@ def _is_gz_type(written: str) -> bool:
 
 
 def topics_of_other_types(around: Surroundings) -> Iterator[Problem]:
-    """Report topics that are published, with a type that the reader does not take."""
+    """Report published topics whose type the subscriber does not accept."""
     if _has_wrong_types(around):
         return
     published = list(published_topics(around))
     for read in used_topics(around):
         end, kind = read.end, read.end.message
         sources = [p for p in published if bare(p.topic.value) == read.name]
-        # The types of a costmap's sensors are compared with their data_type.
+        # Another rule compares a costmap's sensors with their data_type.
         if not sources or end.parameter.endswith(".topic"):
             continue
         if any(p.kind == kind for p in sources):
@@ -166,7 +166,7 @@ def topics_of_other_types(around: Surroundings) -> Iterator[Problem]:
 
 
 def _has_wrong_types(around: Surroundings) -> bool:
-    """True where the types of a bridge are the finding."""
+    """True where another rule already reports the types of a bridge."""
     return any(bridge_types(around)) or any(unknown_bridge_types(around))
 
 
@@ -232,7 +232,7 @@ def _mismatch(
 
 
 def _misfit(entry: BridgeEntry, topic: GazeboTopic) -> Problem:
-    """A type that is not that of the topic in Gazebo."""
+    """Report a type that differs from the type of the topic in Gazebo."""
     ros_type = _ros_type(topic.kind, entry.ros_type.value)
     place = entry.gz_type.place
     better = f"{_package(entry)}.{topic.kind}"
@@ -256,6 +256,6 @@ def _package(entry: BridgeEntry) -> str:
 
 
 def _ros_type(kind: str, written: str) -> str:
-    """The type of ROS for one of Gazebo; of several, that most like the written."""
+    """The ROS type for a Gazebo type; of several, the nearest to the written one."""
     fitting = [name for name, kinds in _PAIRS.items() if kind in kinds]
     return nearest(written, fitting, 0.0) or written

@@ -1,4 +1,4 @@
-"""What a bridge between Gazebo and ROS carries, against what the model sends."""
+"""Compare the topics of a bridge between Gazebo and ROS with those of the model."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def _fits(entry: BridgeEntry, topic: GazeboTopic) -> bool:
 
 
 def bridge_topics(around: Surroundings) -> Iterator[Problem]:
-    """Report entries for a topic that the model calls otherwise."""
+    """Report entries for a topic that has another name in the model."""
     nodes = [n for n in around.running.started if n.executable in _BRIDGES]
     if any(None in node.arguments for node in nodes):
         return
@@ -66,7 +66,7 @@ def bridge_topics(around: Surroundings) -> Iterator[Problem]:
         if node.executable == _OF_IMAGES
         for text in node.arguments
     }
-    # Which of two sensors with one topic is meant is said at the sensor.
+    # The finding at the sensor says which of two sensors with one topic is right.
     doubled = tuple(doubled_topics(around))
     topics = model_topics(around)
     free = [
@@ -84,7 +84,7 @@ def bridge_topics(around: Surroundings) -> Iterator[Problem]:
 def _own_names(
     around: Surroundings, topics: Sequence[GazeboTopic]
 ) -> dict[str, frozenset[str]]:
-    """What the model may be called in Gazebo, for types whose topics it all names."""
+    """The model's possible names in Gazebo, for types whose topics it names itself."""
     names = {around.robot.name, *(t for one in around.launches for t in one.strings)}
     open_ = {topic.kind for topic in unnamed(around)}
     named = {topic.kind for topic in topics}
@@ -92,14 +92,14 @@ def _own_names(
 
 
 def _is_own(entry: BridgeEntry, own: Mapping[str, frozenset[str]]) -> bool:
-    """True for a name that Gazebo would make up for this model, if it did."""
+    """True for a name that Gazebo would generate for this model."""
     parts = bare(entry.gz.value).split("/")
     at = parts.index("model") + 1 if "model" in parts else len(parts)
     return at < len(parts) and parts[at] in own.get(entry.kind, ())
 
 
 def _unnamed(around: Surroundings, topics: Sequence[GazeboTopic]) -> Iterator[Problem]:
-    """Report topics without a name in the model that a bridge carries by one."""
+    """Report topics that a bridge names and the model does not."""
     known = {topic.name for topic in topics}
     kinds = {topic.kind for topic in topics}
     for entry in around.bridged:
@@ -162,10 +162,10 @@ def _misnamed(
 
 
 def scoped_frames(around: Surroundings) -> Iterator[Problem]:
-    """Report sensors whose messages reach ROS with a frame that Gazebo makes up."""
+    """Report sensors whose messages reach ROS with a frame that Gazebo generated."""
     every = around.bridged
     if any(e.kind == "Pose_V" and e.scoped for e in every):
-        # A bridge may bring the frames of Gazebo too.
+        # A bridge may also carry the frames of Gazebo.
         return
     said = {text for launch in around.launches for text in launch.strings}
     filtered = {

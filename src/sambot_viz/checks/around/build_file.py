@@ -41,7 +41,7 @@ _MAKES = frozenset({"file", "execute_process", "add_custom_command", "include"})
 
 
 def unreadable_cmake(around: Surroundings) -> Iterator[Problem]:
-    """Report brackets that are not closed, and words that CMake does not know."""
+    """Report unclosed brackets, and words that CMake does not know."""
     cmake = around.cmake
     if cmake is not None and cmake.fault is not None:
         place = cmake.place(cmake.fault.line)
@@ -55,7 +55,7 @@ def unreadable_cmake(around: Surroundings) -> Iterator[Problem]:
 
 
 def misspelt_keywords(around: Surroundings) -> Iterator[Problem]:
-    """Report words of commands that are almost those in capital letters."""
+    """Report misspelt keywords of commands."""
     cmake, table = around.cmake, vocabulary("cmake_keywords")
     if cmake is None or cmake.fault is not None:
         return
@@ -111,7 +111,7 @@ def missing_commands(around: Surroundings) -> Iterator[Problem]:
 
 
 def commands_after_the_end(around: Surroundings) -> Iterator[Problem]:
-    """Report commands that have to come before ament_package()."""
+    """Report commands after ament_package() that must come before it."""
     cmake = around.cmake
     commands = cmake.commands if cmake is not None and cmake.fault is None else ()
     end = next((c for c in commands if c.name == "ament_package"), None)
@@ -202,7 +202,7 @@ def folders_as_files(around: Surroundings) -> Iterator[Problem]:
 
 
 def malformed_installs(around: Surroundings) -> Iterator[Problem]:
-    """Report install( … ) that does not say what is installed, or where."""
+    """Report install( … ) without files, or without a destination."""
     cmake = around.cmake
     if cmake is None or cmake.fault is not None:
         return
@@ -275,7 +275,7 @@ def _missing(cmake: CMakeFile, word: CMakeWord, near: str | None) -> Problem:
 
 
 def near_folder(folder: str, around: Surroundings) -> str | None:
-    """Return the folder that is meant by the name of one that does not exist."""
+    """Return the existing folder whose name a missing one misspells."""
     if not _is_missing(folder, around):
         return None
     above, _, name = folder.rstrip("/").rpartition("/")

@@ -1,4 +1,4 @@
-"""Modules of Python that are called in place of the function in them."""
+"""Report calls of a Python module in place of the function in it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from sambot_viz.errors import Problem
 
 
 def called_modules(around: Surroundings) -> Iterator[Problem]:
-    """Report a module that is called in place of the function in it: glob( … )."""
+    """Report a call of a module in place of the function in it: glob( … )."""
     for file in python_files(around):
         imports = [n for n in file.tree.body if isinstance(n, ast.Import)]
         whole = {a.name: n for n in imports for a in n.names if a.asname is None}
@@ -40,7 +40,7 @@ def called_modules(around: Surroundings) -> Iterator[Problem]:
 
 
 def _bound_otherwise(tree: ast.Module) -> set[str]:
-    """Return the names that get a value, but for those of whole modules."""
+    """Return the names that get a value, except those of whole modules."""
     steps = [n for n in ast.walk(tree) if not isinstance(n, ast.Import)]
     return {n.id for n in steps if isinstance(n, ast.Name) and not _is_read(n)} | {
         alias.asname or alias.name
@@ -55,7 +55,7 @@ def _is_read(node: ast.Name) -> bool:
 
 
 def _has_members(name: str, tree: ast.Module) -> bool:
-    """Tell whether something of a module is used by its whole name."""
+    """Return whether a file uses a member of a module by its full name."""
     return any(
         isinstance(n, ast.Attribute)
         and isinstance(n.value, ast.Name)

@@ -38,7 +38,7 @@ _MESSAGES = tuple(
 
 
 def unknown_libraries(robot: Robot) -> Iterator[Problem]:
-    """Report a library that is almost one of Gazebo Classic's."""
+    """Report a misspelt library of Gazebo Classic."""
     known = vocabulary(_TABLE)
     for plugin in plugins(robot.gazebo):
         said = plugin.filename.strip()
@@ -56,14 +56,14 @@ def unknown_libraries(robot: Robot) -> Iterator[Problem]:
 
 
 def _same_or_slip(written: str, name: str) -> bool:
-    """Tell whether a name was meant by another one; underscores may be missing."""
+    """Return whether a text misspells a name; underscores may be missing."""
     one, other = written.lower(), name.lower()
     plain = [re.sub("[_-]", "", text) for text in (one, other)]
     return is_one_slip(one, other) or plain[0] == plain[1]
 
 
 def words_of_plugins(robot: Robot) -> Iterator[Problem]:
-    """Report elements and messages of these plugins that are misspelt."""
+    """Report misspelt elements and messages of these plugins."""
     for plugin in plugins(robot.gazebo):
         known = vocabulary(_TABLE).get(plugin.filename, ())
         if known:
@@ -89,7 +89,7 @@ def _nameless(plugin: Plugin) -> Iterator[Problem]:
 
 
 def _of_another_sensor(plugin: Plugin) -> Iterator[Problem]:
-    """Report a plugin that reads another type of sensor than that around it."""
+    """Report a plugin in a sensor of a type that it does not read."""
     sensor, place, reads = plugin.sensor, plugin.element.place, plugin.filename
     kind = "" if sensor is None else sensor.get("type") or ""
     own = [name for name, kinds in _READS.items() if kind in kinds]
@@ -121,7 +121,7 @@ def _elements(plugin: Plugin, known: tuple[str, ...]) -> Iterator[Problem]:
         near = [tag for tag in known if _same_or_slip(child.tag, tag)]
         if child.tag in known or len(near) != 1 or near[0] in present:
             continue
-        # Names of ROS 1, in other letters, have most often the value of the default.
+        # ROS 1 names, spelt differently, mostly have the default value.
         habit = re.sub("_", "", near[0]) == child.tag.lower()
         habit &= "frame" not in near[0] or child.text.strip() == plugin.link
         yield Problem.at(

@@ -37,9 +37,9 @@ def different_clocks(around: Surroundings) -> Iterator[Problem]:
         if given is None or flag(given.value or "") is not False:
             continue
         exempt = node.is_simulator or node.executable in _WITHOUT_TIME
-        # A launch file of Nav2 may write its own time over that of the file.
+        # A launch file of Nav2 may override use_sim_time of the file.
         exempt = exempt or (given.given_at is not None and node.place in node.chain)
-        # Another launch file, which includes this one, may say true.
+        # Another launch file that includes this one may set true.
         open_ = given.is_argument and _CLOCK not in running.declared
         if not exempt and (given.place in node.chain or not open_):
             off.setdefault((node.launch, given.place), []).append(node)
@@ -119,7 +119,7 @@ def clock_not_bridged(around: Surroundings) -> Iterator[Problem]:
 
 
 def _first_user(around: Surroundings) -> Place | None:
-    """Where the first node is told to use simulated time by a file with a bridge."""
+    """Where a file with a bridge first sets use_sim_time of a node."""
     for launch in around.launches:
         if any(start.generation == "gz" for start in starts(launch)):
             for node in launch.nodes:
@@ -141,7 +141,7 @@ def _may_bring_clock(launch: LaunchFile, around: Surroundings) -> bool:
 
 
 def _is_foreign(fact: Fact, around: Surroundings) -> bool:
-    """True for a launch file of a package whose content is not known."""
+    """True for a launch file of a package with unknown content."""
     package = fact.value.removeprefix(SHARE).partition("/")[0]
     ours = package in around.names or package in _WITHOUT_CLOCK
     return fact.value.endswith("launch.py") and not ours

@@ -1,4 +1,4 @@
-"""Joints and interfaces of <ros2_control>, against what controllers need."""
+"""Compare joints and interfaces of <ros2_control> with the needs of controllers."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ _COVERED = frozenset({"left_wheel_names", "right_wheel_names"})
 
 
 class _NeededInterface(NamedTuple):
-    """What a controller needs of a joint.
+    """An interface of a joint that a controller needs.
 
     Attributes:
         controller: its name.
         joint: the joint, where the parameters name it.
         kind: command_interface or state_interface.
         name: of the interface.
-        said: where the parameters say the interface; None for one of the class.
-        parameter: that has the joint.
+        said: the line of the parameters with the interface; None for one of the class.
+        parameter: the parameter with the joint.
     """
 
     controller: str
@@ -48,7 +48,7 @@ class _NeededInterface(NamedTuple):
 
 
 def unfit_interfaces(around: Surroundings) -> Iterator[Problem]:
-    """Report joints that <ros2_control> does not have, or without an interface."""
+    """Report joints that <ros2_control> lacks, or that lack an interface."""
     joints: dict[str, list[Element]] = {}
     for part in around.robot.gazebo:
         for joint in part.find_all("joint") if part.tag == "ros2_control" else ():
@@ -102,7 +102,7 @@ def _needs(around: Surroundings) -> Iterator[_NeededInterface]:
 def _interfaces(
     word: str, given: Mapping[str, Parameter]
 ) -> Iterator[tuple[str, Place | None]]:
-    """Give the interfaces that a word of the table stands for, with their places."""
+    """Yield the interfaces that a word of the table means, with their places."""
     if not word.startswith("$"):
         yield word, None
     elif word[1:] in given:
@@ -111,7 +111,7 @@ def _interfaces(
 
 
 def _items(parameter: Parameter) -> Iterator[Fact]:
-    """Give the texts of a parameter, each with its place."""
+    """Yield the texts of a parameter, each with its place."""
     written, file = parameter.written, parameter.place.file
     is_list = isinstance(written, yaml.SequenceNode)
     nodes: list[yaml.Node] = written.value if is_list else [written]

@@ -1,4 +1,4 @@
-"""Words of <ros2_control>: elements, interfaces, hardware, and joints given twice."""
+"""Check words of <ros2_control>: elements, interfaces, hardware and double joints."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _HARDWARE = (
 
 
 def words_of_control(robot: Robot) -> Iterator[Problem]:
-    """Report what ros2_control does not know, and was meant to be what it knows."""
+    """Report misspelt words that ros2_control does not know."""
     for part in robot.gazebo:
         if part.tag != "ros2_control":
             continue

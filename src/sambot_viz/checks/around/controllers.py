@@ -43,7 +43,7 @@ def declared_controllers(around: Surroundings) -> dict[str, Parameter]:
 
 
 def _meant(name: str, names: Iterable[str]) -> str | None:
-    """Return the name that is almost the same, or has all words of a name."""
+    """Return the most similar name, or the one that has all words of a name."""
     words = set(name.split("_"))
     for other in names:
         if len(words) > 1 and words < set(other.split("_")):
@@ -52,7 +52,7 @@ def _meant(name: str, names: Iterable[str]) -> str | None:
 
 
 def undeclared_controllers(around: Surroundings) -> Iterator[Problem]:
-    """Report controllers that are started, or have parameters, under another name."""
+    """Report controllers whose spawner or parameters use another name."""
     declared = declared_controllers(around)
     if not declared:
         return
@@ -69,7 +69,7 @@ def undeclared_controllers(around: Surroundings) -> Iterator[Problem]:
     for node in spawners:
         words = [word for word, _ in node.placed_arguments]
         if any(word in (None, "-p", "--param-file", "-t") for word in words):
-            # What it brings itself is not known.
+            # Its own parameters are unknown.
             continue
         for name, place in _asked(node):
             near = _meant(name, declared) if name not in declared else None

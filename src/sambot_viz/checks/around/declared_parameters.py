@@ -1,4 +1,4 @@
-"""The parameters that nodes of the packages themselves declare, with their types."""
+"""Read which parameters the nodes of the packages declare, with their types."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ _ANY = "any"
 
 
 class DeclaredParameters(NamedTuple):
-    """What the sources of the packages declare.
+    """The parameters that the sources of the packages declare.
 
     Attributes:
         nodes: name of a node → its parameters.
@@ -74,7 +74,7 @@ class DeclaredParameters(NamedTuple):
 
 @lru_cache(maxsize=1)
 def declared_parameters(around: Surroundings) -> DeclaredParameters:
-    """Return what the nodes of these packages declare, where that is certain."""
+    """Return the parameters that nodes of these packages certainly declare."""
     nodes: dict[str, ParameterBlock] = {}
     programs: dict[tuple[str, str], ParameterBlock] = {}
     for package in around.packages:
@@ -102,7 +102,7 @@ def _programs(package: Package) -> Iterator[tuple[str, str]]:
 
 
 def _declared(text: str, path: str) -> ParameterBlock | None:
-    """Return what a source declares; None where other names are possible."""
+    """Return the declared parameters of a source; None where others are possible."""
     if _OPEN.search(text):
         return None
     found = _in_python(text) if path.endswith(".py") else _in_cpp(text)

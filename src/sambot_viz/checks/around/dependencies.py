@@ -1,4 +1,4 @@
-"""The dependencies in package.xml, against packages of ROS and what is started."""
+"""Compare dependencies in package.xml with ROS packages and started programs."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def _place(element: Element, around: Surroundings) -> Place:
 
 
 def misspelt_dependencies(around: Surroundings) -> Iterator[Problem]:
-    """Report a dependency that is almost the name of a package of ROS."""
+    """Report a dependency that misspells a package of ROS."""
     for element, near in _meant(around).items():
         name, here = element.text.strip(), _place(element, around)
         user = next((one for one in around.launches if near in _words(one)), None)
@@ -59,7 +59,7 @@ def misspelt_dependencies(around: Surroundings) -> Iterator[Problem]:
 
 
 def _meant(around: Surroundings) -> Mapping[Element, str]:
-    """Return the misspelt dependencies, each with the package that was meant."""
+    """Return the misspelt dependencies, each with the right package."""
     depends = _depends(around)
     named = {element.text.strip() for element in depends}
     used = {word for launch in around.launches for word in _words(launch)}
@@ -93,12 +93,12 @@ def _of_ros(name: str) -> str | None:
 def missing_dependencies(around: Surroundings) -> Iterator[Problem]:
     """Note well-known packages that launch files start and package.xml does not list.
 
-    One that lists fewer than two of these leaves them to other packages.
+    A package.xml with fewer than two of them leaves them to other packages.
     """
     depends = _depends(around)
     named = {element.text.strip() for element in depends}
     started = _starts(around)
-    # Two packages that depend on each other cannot be built.
+    # colcon cannot build two packages that depend on each other.
     own = around.files.name
     others = {
         p.name
@@ -193,7 +193,7 @@ def packages_of_ros1(around: Surroundings) -> Iterator[Problem]:
 
 
 def misspelt_packages(around: Surroundings) -> Iterator[Problem]:
-    """Report a find_package that is almost a dependency, or a package of ROS."""
+    """Report a find_package that misspells a dependency or a package of ROS."""
     root, cmake = around.manifest, around.cmake
     if root is None or cmake is None or cmake.fault is not None:
         return
@@ -202,7 +202,7 @@ def misspelt_packages(around: Surroundings) -> Iterator[Problem]:
     found = {call.words[0].text for call in calls}
     for call in calls:
         name = call.words[0].text
-        # Packages that are not of ROS have other names there: eigen is Eigen3.
+        # Packages outside ROS have other names there: eigen is Eigen3.
         of_ros = [each for each in needed if "_" in each and "_" in name]
         slips = [each for each in of_ros if is_one_slip(name, each)]
         near = _of_ros(name) or (slips[0] if len(slips) == 1 else None)

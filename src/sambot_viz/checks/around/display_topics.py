@@ -1,4 +1,4 @@
-"""Topics of RViz displays and tools, against what launch files start."""
+"""Compare topics of RViz displays and tools with what launch files start."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def unseen_topics(around: Surroundings) -> Iterator[Problem]:
 
 
 def _not_started(around: Surroundings) -> Iterator[RunningNode]:
-    """Give an RViz for each config that no launch file names."""
+    """Yield an RViz for each config that no launch file names."""
     said = {word for node in around.running.nodes for word in node.arguments if word}
     for package in around.packages:
         for path in package.ending(".rviz"):
@@ -88,7 +88,7 @@ def _wrong(
     fitting = [p for p in published if p.kind == kind]
     shown = {topic for topic, other in others if other is not each}
     if any(p.is_simulated and p.kind not in _CARRIED for p in sources):
-        # No bridge has this type, which is another finding.
+        # No bridge has this type: another rule reports that.
         return
     if sources and sources[0].kind:
         free = [p for p in fitting if p.topic.value not in shown]
@@ -109,7 +109,7 @@ def _short(message: str) -> str:
 
 
 def _misspelt(name: str, known: Mapping[str, Published]) -> str | None:
-    """Return the published topic of which a name is a misspelling."""
+    """Return the published topic that a name misspells."""
     misspelt = (topic for topic in known if is_misspelt(name, topic))
     return None if any(map(str.isdigit, name)) else next(misspelt, None)
 
@@ -121,9 +121,9 @@ def _meant(
     known: Mapping[str, Published],
     shown: set[str],
 ) -> str | None:
-    """Return the published topic that is meant; None where others may be published.
+    """Return the intended published topic; None where others may be published.
 
-    In a simulation, nodes that are not known have no sensors.
+    In a simulation, unknown nodes have no sensors.
     """
     is_known = around.running.is_known
     if not is_known and not (around.running.simulates and kind in _OF_SENSORS):
@@ -151,7 +151,7 @@ def _unpublished(each: DisplayTopic, source: Published, severity: Severity) -> P
 def _other_type(
     each: DisplayTopic, source: Published, fitting: Sequence[Published]
 ) -> Problem:
-    """Report a topic of another type: the class is wrong, or the topic."""
+    """Report a topic of another type: either the class or the topic is wrong."""
     displays = known_nodes().displays.items()
     classes = [kind for kind, message in displays if _short(message) == source.kind]
     named = [kind for kind in classes if _short(kind) == each.name]
@@ -177,7 +177,7 @@ def _other_type(
 def _volatile(
     around: Surroundings, node: RunningNode, whole: str, each: DisplayTopic
 ) -> Iterator[Problem]:
-    """Report a display that misses what was published before it started."""
+    """Report a display that misses messages from before its start."""
     policy = each.policies.get("Durability Policy")
     if policy is None or policy.value != "Volatile":
         return

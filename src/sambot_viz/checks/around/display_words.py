@@ -1,4 +1,4 @@
-"""Names in configs of RViz that it does not know, and robots that it cannot show."""
+"""Report names in RViz configs that RViz does not know, and robots it cannot show."""
 
 from __future__ import annotations
 
@@ -48,9 +48,9 @@ class _Settings(NamedTuple):
 
     Attributes:
         owner: the class of the display, tool or view that it belongs to.
-        values: its keys and values, those that are texts.
+        values: its keys and values; only values that are texts.
         keys: the keys, with their places.
-        above: the key that this display, tool or view is below; empty for a map in it.
+        above: the key above this display, tool or view; empty for a map in it.
     """
 
     owner: str
@@ -101,13 +101,13 @@ def _values(node: yaml.Node, shown: str) -> dict[str, Fact]:
 
 
 def _misspelt_class(values: Mapping[str, Fact]) -> Fact | None:
-    """Return the class that stands behind a misspelt key."""
+    """Return the class that follows a misspelt key."""
     kinds = (v for k, v in values.items() if is_one_slip(k, "Class"))
     return next((kind for kind in kinds if "/" in kind.value), None)
 
 
 def unknown_frames_of_views(around: Surroundings) -> Iterator[Problem]:
-    """Report words in angle brackets that are almost the one for the fixed frame."""
+    """Report misspelt <Fixed Frame>."""
     for one in _settings(around):
         for key in _FRAMES:
             said = one.values.get(key)
@@ -125,7 +125,7 @@ def unknown_frames_of_views(around: Surroundings) -> Iterator[Problem]:
 
 
 def unknown_settings(around: Surroundings) -> Iterator[Problem]:
-    """Report classes and properties that are almost those of RViz."""
+    """Report misspelt classes and properties of RViz."""
     table = vocabulary("rviz_classes")
     classes = [
         f"{package}/{name.replace('_', ' ')}"
@@ -189,7 +189,7 @@ def _no_class(kind: Fact, one: _Settings, classes: list[str]) -> Problem:
 
 
 def switched_off(around: Surroundings) -> Iterator[Problem]:
-    """Report displays that nothing switches on or off, which RViz leaves off."""
+    """Report displays without Enabled, which RViz leaves off."""
     for one in _settings(around):
         kind = one.values.get("Class")
         given = any(is_one_slip(key, on) for key in one.keys for on in _ON)

@@ -57,7 +57,7 @@ _AHEAD = 0.1
 
 
 def misspelt_elements(robot: Robot) -> Iterator[Problem]:
-    """Report elements of a differential drive with a wrong letter."""
+    """Report misspelt elements of a differential drive."""
     for plugin in plugins(robot.gazebo):
         own = _CLASSIC if plugin.generation == "classic" else _GZ | _LIMITS
         for child in plugin.element.children if plugin.is_drive else ():
@@ -79,7 +79,7 @@ def misspelt_elements(robot: Robot) -> Iterator[Problem]:
 
 
 def wrong_sides(robot: Robot) -> Iterator[Problem]:
-    """Report a plugin whose wheels do not drive the robot as it says."""
+    """Report a plugin whose wheels do not drive the robot as it claims."""
     for plugin in plugins(robot.gazebo):
         if plugin.is_drive:
             base = plugin.one("child_frame_id", "robot_base_frame")
@@ -92,7 +92,7 @@ def wrong_sides(robot: Robot) -> Iterator[Problem]:
 
 
 def wrong_sides_of_controllers(around: Surroundings) -> Iterator[Problem]:
-    """Report the same for the parameters of a diff_drive_controller."""
+    """Report such wheels for the parameters of a diff_drive_controller."""
     for file in around.yaml_files if around.robot.gazebo else ():
         for node in file.nodes:
             given = file.of(node)
@@ -177,7 +177,7 @@ def _driven_twice(
 
 
 def _exchanged(left: _DriveWheel, right: _DriveWheel) -> Problem | None:
-    # With another axis the front is the back, and left is right.
+    # With another axis front and back change places, and so do left and right.
     if min(left.axis, right.axis) <= _ALONG or not left.y < 0 < right.y:
         return None
     of, name = left.fact, left.joint.name
@@ -224,7 +224,7 @@ def _turning(robot: Robot, left: _DriveWheel, right: _DriveWheel) -> Problem | N
 
 
 def _off_the_axle(left: _DriveWheel, right: _DriveWheel) -> Problem | None:
-    """Report a pair of wheels of which one is in front of the other."""
+    """Report a pair of wheels with one in front of the other."""
     ahead, apart = abs(left.x - right.x), abs(left.y - right.y)
     if min(abs(left.axis), abs(right.axis)) <= _ALONG or ahead <= _AHEAD * apart:
         return None

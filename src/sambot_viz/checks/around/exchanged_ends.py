@@ -11,13 +11,13 @@ from sambot_viz.robot.parts import Joint
 
 
 def exchanged_ends(robot: Robot, joint: Joint, base: Fact, user: str) -> Problem | None:
-    """Report a joint that has a part as the parent of what all others hang from.
+    """Report a joint whose parent is a part and whose child is the base.
 
     Args:
         robot: the robot.
         joint: the joint whose child is the base frame.
-        base: where the base frame is named.
-        user: who moves it.
+        base: the place that names the base frame.
+        user: the program that moves it.
     """
     if joint_of_root(robot) is not joint:
         return None

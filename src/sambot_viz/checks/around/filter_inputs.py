@@ -1,4 +1,4 @@
-"""The sensors that robot_localization is to use."""
+"""Check which sensors robot_localization uses."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ _USED = {"odom": (6, 7, 11), "imu": (5, 11), "pose": (0, 1, 5), "twist": (6, 7, 
 
 
 def inputs_without_config(around: Surroundings) -> Iterator[Problem]:
-    """Report sensors of a filter of which no value is to be used."""
+    """Report sensors of a filter that uses none of their values."""
     said = {text for launch in around.launches for text in launch.strings}
     given = {(p.node, p.name) for p in around.parameters}
     for one in filters(around):
         if not any(name.endswith("_config") for name in one.given):
-            # Perhaps the values are set elsewhere.
+            # Another file may set the values.
             continue
         block = known_parameters().nodes["filter"]
         meant = {block.meant(name, one.given) for name in one.given}

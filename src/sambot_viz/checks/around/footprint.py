@@ -1,4 +1,4 @@
-"""The footprint of Nav2: what is written as one, and which is held against shapes."""
+"""Check the footprint of Nav2: its syntax, and its size against the shapes."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def unreadable_footprints(around: Surroundings) -> Iterator[Problem]:
 
 
 def is_readable(footprint: Parameter) -> bool:
-    """Return whether Nav2 can read a footprint, or is given none."""
+    """Return whether Nav2 can read a footprint; True without one."""
     if type_of(footprint.written) == "list":
         return not footprint.written.value
     text = footprint.fact.value
@@ -103,9 +103,9 @@ def _words(node: yaml.Node) -> Iterator[str]:
 
 
 def footprints(around: Surroundings) -> Iterator[Problem]:
-    """Report footprints that the robot does not fit in, or is lost in.
+    """Report footprints that are too small or much too large for the robot.
 
-    Where files contradict each other, they may be for several robots.
+    Files that contradict each other may be for several robots.
     """
     given = [one for file in around.yaml_files for one in _given(file)]
     sizes: dict[str, set[str]] = {}
@@ -115,7 +115,7 @@ def footprints(around: Surroundings) -> Iterator[Problem]:
     clues = {"size"} if several else {"size", "only one"}
     for _, frame, said in given:
         if frame in around.robot.links:
-            # The import is late: only what is compared here needs numpy.
+            # Import late: only this comparison needs numpy.
             from sambot_viz.checks.around.footprint_size import compare
 
             for problem in compare(around.robot, frame, said):
@@ -123,7 +123,7 @@ def footprints(around: Surroundings) -> Iterator[Problem]:
 
 
 def _given(file: YamlFile) -> Iterator[tuple[str, str, Parameter]]:
-    """Give each costmap with its base frame, and its footprint or radius."""
+    """Yield each costmap with its base frame, and its footprint or radius."""
     for node in file.nodes:
         given = file.of(node)
         base, said = given.get("robot_base_frame"), _said(given)
@@ -132,9 +132,9 @@ def _given(file: YamlFile) -> Iterator[tuple[str, str, Parameter]]:
 
 
 def _said(given: Mapping[str, Parameter]) -> Parameter | None:
-    """The parameter that counts: a footprint wins over a radius.
+    """The parameter that counts: a footprint overrides a radius.
 
-    None when there is none, or when Nav2 cannot read it.
+    None without a parameter, or when Nav2 cannot read it.
     """
     footprint = given.get("footprint")
     if footprint is not None and not is_readable(footprint):

@@ -38,7 +38,7 @@ class _Reach(NamedTuple):
     Attributes:
         points: in the base frame [m].
         links: the link of each.
-        complete: no shape is left out, of those that no arm moves.
+        complete: it has all shapes that no arm moves.
     """
 
     points: Points
@@ -47,7 +47,7 @@ class _Reach(NamedTuple):
 
 
 def compare(robot: Robot, frame: str, said: Parameter) -> Iterator[Problem]:
-    """Report a footprint that the robot does not fit in, or is lost in.
+    """Report a footprint that is too small or much too large for the robot.
 
     Args:
         robot: the robot.
@@ -85,7 +85,7 @@ def compare(robot: Robot, frame: str, said: Parameter) -> Iterator[Problem]:
 def _too_large(
     robot: Robot, frame: str, said: Parameter, size: float
 ) -> Iterator[Problem]:
-    """Compare with all shapes: a part that is only visible may need the room."""
+    """Compare with all shapes: a part without a collision shape may need the room."""
     reach = _reach(robot, frame, visuals=True)
     lengths = [math.hypot(*point) for point in reach.points]
     needed = max(lengths)
@@ -107,7 +107,7 @@ def _finding(said: Parameter, message: str, hint: str) -> Problem:
 
 
 def _needed(said: Parameter, reach: _Reach) -> str:
-    """Say which value fits the shapes; without an edit, as these may be wrong."""
+    """Name the value that fits; without an edit, as the shapes may be wrong."""
     if said.name == "robot_radius":
         needed = max(math.hypot(*point) for point in reach.points)
         right = f"{_outward(needed, math.ceil):g}"
@@ -126,7 +126,7 @@ def _outward(value: float, rounded: Callable[[float], int]) -> float:
 
 
 def _polygon(text: str) -> Points | None:
-    """The corners of a footprint [m]; None when they are not readable."""
+    """The corners of a footprint [m]; None when they are unreadable."""
     numbers = [float(n) for n in _NUMBER.findall(text)[:2000]]
     if len(numbers) < 6 or len(numbers) % 2 or not all(map(math.isfinite, numbers)):
         return None
@@ -154,7 +154,7 @@ def _reach(robot: Robot, frame: str, *, visuals: bool) -> _Reach:
     Args:
         robot: the robot.
         frame: the base frame.
-        visuals: the visual shapes as well as the collision shapes.
+        visuals: include the visual shapes, not only the collision shapes.
     """
     poses = robot.at_start
     T_frame_root = poses[frame].inverse()
@@ -173,7 +173,7 @@ def _reach(robot: Robot, frame: str, *, visuals: bool) -> _Reach:
 
 
 def _rigid(robot: Robot) -> list[str]:
-    """The links that no joint moves away: those of arms and lifts are left out."""
+    """The links that no joint moves away, without those of arms and lifts."""
     moved: set[str] = set()
     waiting = [j.child for j in robot.joints.values() if j.type not in _STEADY]
     children: dict[str, list[str]] = {}

@@ -1,4 +1,4 @@
-"""CMakeLists.txt: what targets need and no find_package( … ) has found before them."""
+"""Report what targets in CMakeLists.txt need before find_package( … ) finds it."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ _OF_RCLCPP = frozenset(
 
 
 def unfound_packages(around: Surroundings) -> Iterator[Problem]:
-    """Report a package of ament_target_dependencies that nothing has found before.
+    """Report a package of ament_target_dependencies without an earlier find_package.
 
-    A package finds those that it needs itself, so that only a few are certain.
+    A package also finds its own dependencies, so that only few cases are certain.
     """
     cmake = around.cmake
     if cmake is None or not cmake.is_package or not _UNKNOWN.isdisjoint(cmake.names):
@@ -61,7 +61,7 @@ def _found_before(command: CMakeCommand, cmake: CMakeFile) -> set[str]:
 
 
 def _is_certain(name: str, before: set[str]) -> bool:
-    """Return whether none of the packages that were found brings another one."""
+    """Return whether none of the found packages can bring another one."""
     if name not in vocabulary("packages") or name in _OF_RCLCPP:
         return False
     others = before - _ALONE
@@ -71,7 +71,7 @@ def _is_certain(name: str, before: set[str]) -> bool:
 
 
 def _found(name: str, command: CMakeCommand, cmake: CMakeFile) -> Fix:
-    """Return the fix that finds a package behind the last one before a command."""
+    """Return the fix that adds a find_package after the last one before a command."""
     line = f"find_package({name} REQUIRED)"
     finds = [
         each

@@ -1,4 +1,4 @@
-"""Frames in the files around a model, against its links and against each other."""
+"""Compare frames in the files around a model with its links and each other."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ _MISSPELT = 0.8
 
 
 def unknown_frames(around: Surroundings) -> Iterator[Problem]:
-    """Report frames of the robot that it does not have."""
+    """Report frames that the robot does not have."""
     if around.namespaced:
         return
     links = around.robot.links
@@ -95,7 +95,7 @@ def _turned(name: str, link: str, robot: Robot) -> str | None:
 
 
 def _robot_frames(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
-    """Give each frame of the robot, who names it, and the link it probably is."""
+    """Yield each frame of the robot, the place that names it, and its probable link."""
     for plugin in around.plugins:
         for fact in plugin.all(*(DRIVE_BASES if plugin.is_drive else ())):
             yield fact, f"the plugin {plugin.filename}", plugin.link
@@ -151,7 +151,7 @@ def two_parents(around: Surroundings) -> Iterator[Problem]:
 
 
 def _moved_bases(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
-    """Give each frame that odometry moves, who moves it, and from which frame."""
+    """Yield each frame that odometry moves, the moving program and the parent frame."""
     for one in filters(around):
         base = one.given.get("base_link_frame")
         if base is not None and one.moves_base:
@@ -198,7 +198,7 @@ def _line_of(one: StateFilter) -> Place:
 
 
 def odometry_frames(around: Surroundings) -> Iterator[Problem]:
-    """Report frames of odometry that are not the one that is published."""
+    """Report odometry frames that differ from the published one."""
     published = list(_published_odoms(around))
     names = {bare_frame(fact.value): fact for fact, _ in reversed(published)}
     if around.namespaced or not names:
@@ -249,7 +249,7 @@ def world_frames(around: Surroundings) -> Iterator[Problem]:
         if world is None or one.world_frame in (one.odom_frame, one.map_frame):
             continue
         if one.odom_frame == one.map_frame:
-            # Another rule says which of the two it is.
+            # Another rule decides between the two.
             continue
         other = one.given.get("odom_frame")
         if other is not None and _is_odd(around, one):
@@ -277,7 +277,7 @@ def world_frames(around: Surroundings) -> Iterator[Problem]:
 
 
 def _is_odd(around: Surroundings, one: StateFilter) -> bool:
-    """Return whether all others call the frame of odometry what world_frame is."""
+    """Return whether all others use the name in world_frame for the odometry frame."""
     if "world_frame" not in one.given:
         return False
     if one.world_frame in (one.odom_frame, one.map_frame):
@@ -287,7 +287,7 @@ def _is_odd(around: Surroundings, one: StateFilter) -> bool:
 
 
 def planes(around: Surroundings) -> Iterator[Problem]:
-    """Report a file in which one filter stays on the floor and another does not.
+    """Report a file with one filter in the plane and another outside it.
 
     One filter alone may do both with any sensors: two_d_mode then overrules them.
     """
@@ -318,9 +318,9 @@ _ODOM_TF = ("publish_odom_tf", "publishOdomTF", "publishTf")
 
 
 def drive_tf(around: Surroundings, plugin: Plugin) -> Fact | None:
-    """Return where a drive is told to publish the transform of the base to ROS.
+    """Return the setting that makes a drive publish the transform of the base to ROS.
 
-    A drive of Gazebo does when a bridge carries its tf_topic.
+    A drive of Gazebo publishes it when a bridge carries its tf_topic.
     """
     if plugin.generation == "classic":
         told = plugin.one(*_ODOM_TF)

@@ -1,4 +1,4 @@
-"""Which Gazebo a launch file starts."""
+"""Find which Gazebo a launch file starts."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _ACTIONS: dict[str, Generation] = {"GzServer": "gz", "RosGzBridge": "gz"}
 
 
 class Start(NamedTuple):
-    """Something of one Gazebo that a launch file starts.
+    """A program of one Gazebo that a launch file starts.
 
     Attributes:
         generation: which Gazebo.
@@ -51,17 +51,17 @@ class Start(NamedTuple):
 
     @property
     def simulates(self) -> bool:
-        """True for the simulator itself; a bridge or a spawned robot is none."""
+        """True for the simulator itself, not for a bridge or a spawned robot."""
         return self.what.startswith(_SIMULATORS)
 
 
 def starts(launch: LaunchFile) -> list[Start]:
-    """Return what of Gazebo is always started."""
+    """Return the programs of Gazebo that always start."""
     return [start for call in launch.certain for start in _starts(launch, call)]
 
 
 def may_start(launch: LaunchFile) -> frozenset[Generation]:
-    """Return the generations of Gazebo that are started at least sometimes."""
+    """Return the generations of Gazebo that start at least sometimes."""
     every = (start for call in launch.calls for start in _starts(launch, call))
     return frozenset(start.generation for start in every)
 

@@ -1,4 +1,4 @@
-"""The topics of Gazebo that the sensors and plugins of a model send and take."""
+"""List the Gazebo topics that sensors and plugins of a model send and receive."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ _MISSPELT = 0.75
 
 
 class GazeboTopic(NamedTuple):
-    """A topic of Gazebo that the model sends or takes."""
+    """A topic of Gazebo that the model sends or receives."""
 
     node: RunningNode
     end: Endpoint
 
     @property
     def name(self) -> str:
-        """The topic, without a slash before it; empty where Gazebo makes it up."""
+        """The topic, without a leading slash; empty where Gazebo generates it."""
         return bare(self.end.topic)
 
     @property
@@ -35,23 +35,23 @@ class GazeboTopic(NamedTuple):
 
     @property
     def what(self) -> str:
-        """What sends or takes it."""
+        """The sensor or plugin that sends or receives it."""
         what = "sensor" if self.node.package == SENSOR else "plugin"
         return f"the {what} {self.node.name}"
 
     @property
     def verb(self) -> str:
-        """What that does with it."""
+        """The verb for the finding: "sends" or "takes"."""
         return "sends" if self.end.publishes else "takes"
 
 
 def model_topics(around: Surroundings) -> list[GazeboTopic]:
-    """Return the topics of Gazebo that the model sends or takes, and names."""
+    """Return the Gazebo topics that the model names, and sends or receives."""
     return [topic for topic in _all(around) if topic.name]
 
 
 def unnamed(around: Surroundings) -> list[GazeboTopic]:
-    """Return those that the model does not name: Gazebo makes their topics up."""
+    """Return those without a name in the model: Gazebo generates their topics."""
     return [topic for topic in _all(around) if not topic.name and _is_left_out(topic)]
 
 
@@ -63,7 +63,7 @@ def _all(around: Surroundings) -> Iterator[GazeboTopic]:
 
 
 def _is_left_out(topic: GazeboTopic) -> bool:
-    """False where another element is this one, misspelt."""
+    """False where another element misspells this one."""
     tags = [given.name for given in topic.node.parameters]
     return nearest(topic.end.parameter, tags, _MISSPELT) is None
 

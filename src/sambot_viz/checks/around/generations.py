@@ -42,7 +42,7 @@ _BUILD_TYPE = re.compile(r"<build_type>\s*(ament_\w+)")
 
 
 def plugins_of_the_other(around: Surroundings) -> Iterator[Problem]:
-    """Report plugins for the Gazebo that no launch file starts, in one finding."""
+    """Report plugins for a Gazebo that no launch file starts, in one finding."""
     first = [start for launch in around.launches for start in starts(launch)]
     started = {kind for launch in around.launches for kind in may_start(launch)}
     made_for = {plugin.generation: plugin for plugin in reversed(around.plugins)}

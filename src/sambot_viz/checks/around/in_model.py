@@ -1,7 +1,7 @@
-"""The rules that need only the model, in the order in which they run.
+"""List the rules that need only the model, in their order.
 
-They are their own table because a model in no package needs no other: reading
-those costs more than checking it.
+They have a separate table because a model without a package needs no others: importing
+those costs more than the check itself.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The rules about setup.py, in the order in which they run.
+"""List the rules about setup.py, in their order.
 
-They are their own table because most packages have no setup.py.
+They have a separate table because most packages have no setup.py.
 """
 
 from __future__ import annotations

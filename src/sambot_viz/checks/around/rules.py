@@ -1,6 +1,6 @@
-"""The rules about a model and the files around it, in the order in which they run.
+"""List the rules about a model and the files around it, in their order.
 
-Those that need only the model are in `in_model.py`, those about setup.py in
+The rules that need only the model are in `in_model.py`, the rules about setup.py in
 `in_setup.py`.
 """
 

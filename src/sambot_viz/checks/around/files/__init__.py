@@ -1,1 +1,1 @@
-"""What the files around a model say: plugins, parameters, launch files, folders."""
+"""Read the files around a model: plugins, parameters, launch files and folders."""

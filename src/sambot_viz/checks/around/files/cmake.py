@@ -1,4 +1,4 @@
-"""The commands in a CMakeLists.txt, and what stops CMake from reading it."""
+"""Read the commands in a CMakeLists.txt, and find what stops CMake."""
 
 from __future__ import annotations
 
@@ -124,17 +124,17 @@ class CMakeFile:
 
     @property
     def is_package(self) -> bool:
-        """True when it makes a package of ROS 2, as far as it can be read."""
+        """True when it builds a ROS 2 package, as far as its text shows."""
         makes = {"ament_package", "ament_auto_package"}
         return self.fault is None and not makes.isdisjoint(self.names)
 
     def certain(self, name: str) -> bool:
-        """Return whether a command is called outside if( … ), loops and functions."""
+        """Return whether a command has a call outside if( … ), loops and functions."""
         return any(c.name == name and c.certain for c in self.commands)
 
     @cached_property
     def project(self) -> CMakeWord | None:
-        """The name of the project, when it is plain text, and the only one."""
+        """The name of the only project, when it is plain text."""
         projects = [c for c in self.commands if c.name == "project" and c.words]
         if len({c.words[0].text for c in projects}) != 1:
             return None
@@ -142,7 +142,7 @@ class CMakeFile:
         return name if re.fullmatch(r"[\w.-]+", name.text) else None
 
     def is_name(self, part: str) -> bool:
-        """Return whether ${PROJECT_NAME} is meant, such as by ${PROJECT_NAM}."""
+        """Return whether a text misspells ${PROJECT_NAME}, such as ${PROJECT_NAM}."""
         bare = re.sub(r"^\$?[{(]?|[)}]?$", "", part)
         known = {c.words[0].text for c in self.commands if c.name == "set" and c.words}
         like = nearest(bare.upper(), [_NAME], likeness=0.85) is not None
@@ -180,7 +180,7 @@ class CMakeFile:
             self.fault = self._never_closed(name, opened[0])
 
     def _misspelt(self) -> Iterator[Fault]:
-        """Find commands that nearly have the name of another, and their keywords."""
+        """Find misspelt commands, and misspelt keywords of commands."""
         known = vocabulary("cmake_commands")
         for command in self.commands if _DEFINING.isdisjoint(self.names) else ():
             near = [name for name in known if is_one_slip(command.name, name)]
@@ -209,7 +209,7 @@ class CMakeFile:
         return Fault(line, cause, f"write {right}", better)
 
     def _open_block(self) -> Fault | None:
-        """Find an if( … ) or the like without its end, and an end without it."""
+        """Find a block such as if( … ) without an end, and an end without a block."""
         opened: list[CMakeCommand] = []
         for command in self.commands:
             kind = command.name.removeprefix("end")
@@ -225,7 +225,7 @@ class CMakeFile:
         return self._without_end(opened[-1]) if opened else None
 
     def _without_end(self, block: CMakeCommand) -> Fault:
-        """Find the last line that is indented more than a block: its end is missing."""
+        """Find the last line in a block without an end, by its indentation."""
         head = _indent(self._lines[block.line - 1])
         last = block.line
         for number in range(block.line + 1, len(self._lines) + 1):
@@ -244,7 +244,7 @@ class CMakeFile:
         )
 
     def _never_closed(self, name: CMakeWord, line: int) -> Fault:
-        """Find the last line before the next command: there the ) is missing."""
+        """Find the last line before the next command, where the ) is missing."""
         end, head = len(self._lines), _indent(self._lines[line - 1])
         for number in range(line + 1, end + 1):
             text = self._lines[number - 1]
@@ -264,7 +264,7 @@ class CMakeFile:
         )
 
     def _closed_early(self, name: CMakeWord, closed: int, line: int) -> Fault:
-        """Find the ) that has closed a command before its last words."""
+        """Find the ) that closes a command before its last words."""
         before = _code(self._lines[closed - 1]) if name.line > closed > 0 else ""
         word = "".join(before.split()[-1:]).removesuffix(")")
         if word and before.endswith(")"):

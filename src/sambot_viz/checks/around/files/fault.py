@@ -6,14 +6,14 @@ from typing import NamedTuple
 
 
 class Fault(NamedTuple):
-    """What is wrong in a text.
+    """A fault in a text, and how to fix it.
 
     Attributes:
         line: its line, from 1.
         cause: what is wrong there.
         hint: what to write.
-        better: the line as it should be, where one line is all that changes.
-        at: the line that is to change; None for the same.
+        better: the corrected line, where only one line changes.
+        at: the line to change; None for `line`.
     """
 
     line: int

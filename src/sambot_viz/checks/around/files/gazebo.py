@@ -21,7 +21,7 @@ _OPEN = re.compile(r"\$\(|\$\{")
 
 
 class Fact(NamedTuple):
-    """A name or a number that a file says, and where.
+    """A name or a number in a file, with its place.
 
     Attributes:
         value: the text, without blanks around it.
@@ -58,7 +58,7 @@ class Plugin(NamedTuple):
 
     @property
     def generation(self) -> Generation | None:
-        """The Gazebo that it is made for; None when its name does not tell."""
+        """The Gazebo that it belongs to; None when its name does not show that."""
         if "libgazebo_" in self.filename:
             return "classic"
         if _GZ.match(self.filename):
@@ -71,7 +71,7 @@ class Plugin(NamedTuple):
         return any(name in self.filename for name in _DRIVES)
 
     def all(self, *tags: str) -> list[Fact]:
-        """Return what the elements with these tags say; those with $( … ) are left out.
+        """Return the texts of the elements with these tags, except those with $( … ).
 
         Args:
             tags: different names of the same element.
@@ -79,12 +79,12 @@ class Plugin(NamedTuple):
         return facts(self.element, *tags)
 
     def one(self, *tags: str) -> Fact | None:
-        """Return what the first element with one of these tags says, or None."""
+        """Return the text of the first element with one of these tags, or None."""
         return next(iter(self.all(*tags)), None)
 
 
 def facts(element: Element, *tags: str) -> list[Fact]:
-    """Return what the child elements with these tags say, in document order."""
+    """Return the texts of the child elements with these tags, in document order."""
     return [
         Fact(child.text.strip(), child.place)
         for child in element.children
@@ -93,7 +93,7 @@ def facts(element: Element, *tags: str) -> list[Fact]:
 
 
 def plugins(parts: Sequence[Element]) -> Iterator[Plugin]:
-    """Give all plugins of a model.
+    """Yield all plugins of a model.
 
     Args:
         parts: `Robot.gazebo`.
@@ -109,7 +109,7 @@ def plugins(parts: Sequence[Element]) -> Iterator[Plugin]:
 
 
 def sensors(parts: Sequence[Element]) -> Iterator[tuple[str, Element]]:
-    """Give all sensors of a model, each with the name of its link.
+    """Yield all sensors of a model, each with the name of its link.
 
     Args:
         parts: `Robot.gazebo`.

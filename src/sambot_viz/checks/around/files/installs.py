@@ -1,4 +1,4 @@
-"""What a build file installs, and where: the same of CMakeLists.txt and setup.py."""
+"""Describe what CMakeLists.txt or setup.py installs, and where, in one form."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from sambot_viz.errors import Place
 
 
 class Piece(NamedTuple):
-    """A file that is installed, or a folder with all that is in it.
+    """An installed file, or a folder with everything in it.
 
     Attributes:
-        source: relative to the package; a folder ends with a slash, the package itself
-            is empty.
-        target: where it gets to, below the prefix; a folder ends with a slash.
-        said: the destination as the build file says it.
-        place: where the build file says it.
-        certain: False when it depends on something.
+        source: relative to the package; a folder ends with a slash, and the package
+            itself is empty.
+        target: its installed path below the prefix; a folder ends with a slash.
+        said: the destination as the build file has it.
+        place: the place in the build file.
+        certain: False when it depends on a condition.
     """
 
     source: str
@@ -29,7 +29,7 @@ class Piece(NamedTuple):
     certain: bool = True
 
     def installed(self, path: str) -> str | None:
-        """Return where a file of the package gets to, None when it does not."""
+        """Return the installed path of a file of the package; None when it has none."""
         if path == self.source:
             return self.target
         folder = self.source.endswith("/") or not self.source
@@ -39,13 +39,13 @@ class Piece(NamedTuple):
 
 
 class Installed(NamedTuple):
-    """All that a build file installs.
+    """Everything that a build file installs.
 
     Attributes:
-        place: where a missing one is to be added.
+        place: where to add a missing piece.
         folder: the package.
         share: where its share folder is, below the prefix.
-        pieces: what is installed.
+        pieces: the installed files and folders.
     """
 
     place: Place
@@ -54,7 +54,7 @@ class Installed(NamedTuple):
     pieces: tuple[Piece, ...]
 
     def targets(self, path: str) -> Iterator[tuple[str, Piece]]:
-        """Give where a file of the package gets to, and by which piece."""
+        """Yield each installed path of a file of the package, with its piece."""
         for piece in self.pieces:
             target = piece.installed(path)
             if target is not None:

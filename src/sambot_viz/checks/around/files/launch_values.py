@@ -1,4 +1,4 @@
-"""How paths in packages are written, in models and in what launch files build."""
+"""Write paths in packages, for models and for values in launch files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lines of Python as they may have been meant, where one of them stops the file."""
+"""Propose corrected lines of Python, where one line stops the file."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ _TEXTS: tuple[tuple[str, str, str], ...] = (
 
 
 def line_repairs(lines: list[str], at: int, message: str) -> Iterator[Repair]:
-    """Give what the line of an error, or one before it, may have been meant to be.
+    """Yield corrections of the line of an error, or of one before it.
 
     Args:
         lines: of the file.
         at: the line that Python names, from 1.
-        message: what it says.
+        message: the message of Python.
     """
     before = next((n for n in range(at - 1, 0, -1) if lines[n - 1].strip()), at)
     opened = re.search(r"on line (\d+)", message)
@@ -72,7 +72,7 @@ def line_repairs(lines: list[str], at: int, message: str) -> Iterator[Repair]:
 
 
 def _word(lines: list[str], n: int) -> Iterator[Repair]:
-    """Give the line with another word at its beginning."""
+    """Yield the line with another word at its beginning."""
     first = re.match(r"(\s*)([A-Za-z]+)\b", lines[n - 1])
     if first is None or first[2] in _WORDS:
         return
@@ -83,7 +83,7 @@ def _word(lines: list[str], n: int) -> Iterator[Repair]:
 
 
 def _indents(lines: list[str], at: int, before: int) -> Iterator[Repair]:
-    """Give the line with as many blanks as others near it have."""
+    """Yield the line with the indentation of the lines near it."""
     near = [n for n in (before, at + 1, before - 1) if 0 < n <= len(lines)]
     cause = "the line has other blanks before it than its neighbours"
     for n in near:
@@ -95,7 +95,7 @@ def _indents(lines: list[str], at: int, before: int) -> Iterator[Repair]:
 
 
 def _brackets(lines: list[str], n: int, message: str) -> Iterator[Repair]:
-    """Give the line with one bracket more, less or another."""
+    """Yield the line with one bracket added, removed or replaced."""
     line, following = lines[n - 1], "".join(lines[n : n + 1]).lstrip()
     said = _DOES_NOT_MATCH.search(message)
     closing = (_CLOSES[said[2]],) if said else tuple(_CLOSES.values())

@@ -1,6 +1,7 @@
-"""The line of package.xml that keeps it from being XML, as it was meant.
+"""Correct the line of package.xml that keeps it from being XML.
 
-Each better line is tried: only one with which the file is a package.xml is proposed.
+The module tries each corrected line, and proposes one only if the file then is a
+package.xml.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ _SMALLEST = (
 
 
 class _Repair(NamedTuple):
-    """A better line, why the old one is wrong, and what to write."""
+    """A corrected line, the fault of the old one, and what to write."""
 
     better: str
     cause: str
@@ -43,11 +44,11 @@ class _Repair(NamedTuple):
 
 
 def manifest_fault(text: str, name: str) -> Fault | None:
-    """Return why a text is no package.xml, or None for one that is XML.
+    """Return why a text is not a package.xml, or None for one that is XML.
 
     Args:
         text: of the file.
-        name: of the package, for a file that is empty.
+        name: of the package, for an empty file.
     """
     if not text.strip():
         return Fault(1, "package.xml is empty", f"write {_SMALLEST.format(name)}")
@@ -94,7 +95,7 @@ def _repairs(line: str, n: int, lines: list[str]) -> Iterator[_Repair]:
 
 
 def _of_element(line: str) -> Iterator[_Repair]:
-    """Give better lines for one with an element that has only text in it."""
+    """Yield corrections of a line with an element that contains only text."""
     if match := _OPENED_TWICE.search(line) or _CLOSED_AS_OTHER.search(line):
         twice = match.re is _OPENED_TWICE
         wrong = "opened twice and not closed" if twice else f"closed by </{match[4]}>"
@@ -118,7 +119,7 @@ def _is_known(tag: str) -> bool:
 
 
 def _of_container(line: str, n: int, lines: list[str]) -> Iterator[_Repair]:
-    """Give better lines for one beside a tag of <package> or <export>."""
+    """Yield corrections of a line beside a tag of <package> or <export>."""
     blanks = line[: len(line) - len(line.lstrip())]
     if (match := _TAG.search(line)) and match[2] != _ROOT:
         near = nearest(match[2].lower(), [_ROOT, "export"], _LIKENESS)

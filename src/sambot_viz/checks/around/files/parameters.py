@@ -1,4 +1,4 @@
-"""The parameters in the YAML files of a package, each with its line."""
+"""Read the parameters in the YAML files of a package, each with its line."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Parameter(NamedTuple):
 
     @property
     def value_place(self) -> Place:
-        """Where the value begins."""
+        """The place where the value begins."""
         return place_of(self.written, self.place.file)
 
     @property
@@ -142,9 +142,9 @@ class YamlFile:
                 yield Parameter(owner, name, _texts(value), place, value, keys)
 
     def entries(self) -> Iterator[dict[str, Fact]]:
-        """Give the mappings of a list, such as those of a bridge, key → value.
+        """Yield the mappings of a list, such as those of a bridge, key → value.
 
-        A key that comes again begins the next mapping, whose "- " is missing.
+        A repeated key begins the next mapping: its "- " is missing.
         """
         if not isinstance(self.root, yaml.SequenceNode):
             return
@@ -174,7 +174,7 @@ class _Budget:
 
 
 def pairs(node: yaml.Node) -> Iterator[tuple[yaml.ScalarNode, yaml.Node]]:
-    """Give the keys and values of a mapping; nothing for other nodes."""
+    """Yield the keys and values of a mapping; nothing for other nodes."""
     if isinstance(node, yaml.MappingNode):
         for key, value in node.value:
             if isinstance(key, yaml.ScalarNode):
@@ -184,14 +184,14 @@ def pairs(node: yaml.Node) -> Iterator[tuple[yaml.ScalarNode, yaml.Node]]:
 def each_mapping(
     root: yaml.Node, left_out: Collection[str] = ()
 ) -> Iterator[tuple[str, yaml.Node]]:
-    """Give the mappings of a file in its order, each once, with the keys before them.
+    """Yield the mappings of a file in its order, each once, with the keys above them.
 
-    A mapping that aliases put into several places is given where it comes first: so a
-    small file is never endless.
+    Aliases can put a mapping into several places. It comes only at its first place, so
+    that a small file never becomes endless.
 
     Args:
         root: where to begin.
-        left_out: what is below these keys is not given.
+        left_out: keys whose values are left out.
     """
     waiting, met = [("", root)], set[int]()
     while waiting:

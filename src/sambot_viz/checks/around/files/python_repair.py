@@ -1,4 +1,4 @@
-"""What stops a Python file in every version of Python, and where to mend it."""
+"""Find what stops a Python file in every version of Python, and where to fix it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _COMMA = "a comma is missing at the end of this line"
 
 
 def fault_in_python(text: str) -> Fault | None:
-    """Return what stops Python; None when it is fine or a version may read it."""
+    """Return what stops Python; None when at least one version may read the file."""
     error = _error(text)
     if error is None or error.lineno is None:
         return None
@@ -42,7 +42,8 @@ def fault_in_python(text: str) -> Fault | None:
     cause = error.msg.removeprefix("invalid syntax. ").rstrip("?.")
     for n, better, said in line_repairs(lines, at, error.msg):
         again = _error("\n".join([*lines[: n - 1], better, *lines[n:]]))
-        # What only moves the error is a repair where one more of a line mends that.
+        # A change that only moves the error counts where a change of one more line
+        # fixes it.
         if again is None or _is_separate(again, lines, n, better, max(last, n)):
             return Fault(n, said or cause, f"write {better.strip()}", better)
     return Fault(at, cause, _hint(error.msg))
@@ -51,7 +52,7 @@ def fault_in_python(text: str) -> Fault | None:
 def _is_separate(
     error: SyntaxError, lines: list[str], n: int, better: str, last: int
 ) -> bool:
-    """Return whether an error further on is mended by itself."""
+    """Return whether a later error has its own repair."""
     at = error.lineno or 0
     if not last + _FURTHER < at <= len(lines):
         return False
@@ -74,7 +75,7 @@ def _error(text: str) -> SyntaxError | None:
 
 
 def _comma(lines: list[str], first: int, last: int) -> int | None:
-    """The line after which a comma mends the file; None when none does."""
+    """The line after which a comma repairs the file, or None."""
     code = [line.partition("#")[0].rstrip() for line in lines]
     candidates = [n for n in range(max(1, first - 2), last + 1) if code[n - 1]]
     for n in candidates[:_MOST_LINES]:
@@ -88,7 +89,7 @@ def _comma(lines: list[str], first: int, last: int) -> int | None:
 
 
 def _opened(lines: list[str], at: int) -> Fault | None:
-    """Find a name before an indented line that calls something when a ( follows it."""
+    """Find a name before an indented line that becomes a call when a ( follows it."""
     n = next((n for n in range(at - 1, 0, -1) if lines[n - 1].strip()), 0)
     name = _NAME_AT_END.search(lines[n - 1]) if n else None
     if name is None:

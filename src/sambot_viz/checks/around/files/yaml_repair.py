@@ -1,4 +1,4 @@
-"""What stops a YAML file, found by the small change that makes it readable."""
+"""Find what stops a YAML file, by the small change that makes it readable."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _TWICE = ("local_costmap:", "global_costmap:")
 
 
 def fault_in(text: str) -> Fault | None:
-    """Return what stops YAML from being read; None when it can be read."""
+    """Return what stops a YAML file; None for readable YAML."""
     error = _error(text)
     if error is None:
         return None
@@ -44,7 +44,7 @@ def fault_in(text: str) -> Fault | None:
             only = better[0] if len(better) == 1 else None
             return Fault(line + 1, cause, hint, only)
         if nearly is None and _line(again) > max(at, line):
-            # Something else is wrong behind it, or this is not what was meant.
+            # Another fault follows, or this change is not the intended one.
             nearly = Fault(line + 1, cause, hint)
     return nearly or Fault(
         at + 1, f"{error.problem}", "correct this line or the one above it"
@@ -52,7 +52,7 @@ def fault_in(text: str) -> Fault | None:
 
 
 def _error(text: str) -> yaml.MarkedYAMLError | None:
-    """The first place where the text is no YAML; aliases are not followed."""
+    """The first place where the text is not YAML; without following aliases."""
     try:
         for _ in _YAML.parse(text, _LOADER):
             pass
@@ -68,7 +68,7 @@ def _line(error: yaml.MarkedYAMLError) -> int:
 
 
 class _Candidate(NamedTuple):
-    """Lines to write from a line on, counted from 0, and what that means."""
+    """Lines to write from a line on, counted from 0, and the reason."""
 
     line: int
     better: list[str]
@@ -102,7 +102,7 @@ def _candidates(
 
 
 def _levels(lines: list[str], at: int) -> Iterator[_Candidate]:
-    """Write the name of a costmap again, where ros__parameters is two levels below."""
+    """Repeat the name of a costmap, where ros__parameters is two levels below."""
     for n in range(min(at, len(lines) - 2), -1, -1):
         name, below = lines[n].strip(), lines[n + 1]
         deeper = len(_indent(below)) - len(_indent(lines[n]))
@@ -150,7 +150,7 @@ def _quote(lines: list[str], n: int) -> Iterator[_Candidate]:
 
 
 def _comma(lines: list[str], n: int) -> Iterator[_Candidate]:
-    """Write a comma behind a value of a list in brackets."""
+    """Write a comma after a value of a list in brackets."""
     code = lines[n].partition(" #")[0].rstrip()
     is_inside = _open(lines, n, "[]") > 0
     between = _VALUES.sub(r"\1, ", code)
@@ -182,7 +182,7 @@ def _bracket(lines: list[str], n: int) -> Iterator[_Candidate]:
 
 
 def _dash(lines: list[str], n: int) -> Iterator[_Candidate]:
-    """Begin an entry of a list with the key that other entries begin with."""
+    """Begin an entry of a list with the first key of the other entries."""
     code = lines[n].strip()
     key = code.partition(":")[0]
     first = next((x for x in lines if x.lstrip().startswith(f"- {key}:")), None)
@@ -196,7 +196,7 @@ def _dash(lines: list[str], n: int) -> Iterator[_Candidate]:
 
 
 def _indentation(lines: list[str], near: list[int]) -> Iterator[_Candidate]:
-    """Write a line below a neighbour; first as most other keys are written."""
+    """Indent a line like a neighbour; the commonest form first."""
     keys = Counter(_indent(line) for line in lines if _KEY.match(line))
     found: list[tuple[int, _Candidate]] = []
     for n in near:
