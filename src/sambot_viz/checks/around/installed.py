@@ -1,4 +1,4 @@
-"""Files that are used, but that CMakeLists.txt or setup.py does not install right."""
+"""Report files in use that CMakeLists.txt or setup.py does not install right."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _NOT_INSTALLED = frozenset({"doc", "docs", "example", "examples", "test", "tests
 
 
 def not_installed(around: Surroundings) -> Iterator[Problem]:
-    """Report each file that is used and exists, but is not installed where it is."""
+    """Report each existing file in use that the build does not install in its place."""
     if any(folders_as_files(around)) or any(malformed_installs(around)):
         return
     if around.cmake is not None and around.cmake.fault is not None:
@@ -76,7 +76,7 @@ def _is_launch(path: str, user: Place, installed: Installed) -> bool:
 
 
 def _used(around: Surroundings) -> Iterator[tuple[str, Place]]:
-    """Give the files of the package that are used, each with a user."""
+    """Yield the used files of the package, each with a user."""
     for launch in around.launches:
         folder, slash, _ = launch.path.partition("/")
         module = f"{posixpath.dirname(launch.path)}/__init__.py" in around.files.paths
@@ -97,7 +97,7 @@ def _used(around: Surroundings) -> Iterator[tuple[str, Place]]:
 def _nowhere(
     around: Surroundings, missing: dict[str, Place], installed: Installed
 ) -> Iterator[Problem]:
-    """Report what is installed nowhere: a row for each folder that is to be added."""
+    """Report files that nothing installs: one row for each folder to add."""
     setup = around.setup if around.cmake is None else None
     groups: dict[str, dict[str, Place]] = {}
     for path, user in missing.items():
@@ -168,7 +168,7 @@ def _addition(
 def _files(
     setup: SetupFile, folder: str, paths: dict[str, Place], around: Surroundings
 ) -> str:
-    """Write the files of a folder for data_files, which takes no folders."""
+    """Write the files of a folder for data_files, which does not accept folders."""
     flat = not any(p.is_dir() for p in (around.files.folder / folder).iterdir())
     return (setup.globbed(f"{folder}/*") if flat else None) or str(list(paths))
 
@@ -217,7 +217,7 @@ def _empty(
 def _at_wrong_place(
     around: Surroundings, piece: Piece, paths: dict[str, Place], installed: Installed
 ) -> Problem:
-    """Say where files get to, and where they are looked for."""
+    """Name the installed place of files, and the place where ROS looks for them."""
     place, (path, user) = piece.place, next(iter(paths.items()))
     folders = list(dict.fromkeys(p.partition("/")[0] for p in paths))
     are, them = ("s", "them") if len(folders) > 1 else ("", "it")
@@ -267,7 +267,7 @@ def _at_wrong_place(
 def _misspelt_folder(
     setup: SetupFile, pair: ast.Tuple, folder: str, right: str
 ) -> Fix | None:
-    """Return the fix for a folder in a target, where one letter of it is wrong."""
+    """Return the fix for a folder with one wrong letter in a target."""
     if folder == right or not is_one_slip(folder.lower(), right.lower()):
         return None
     for node in ast.walk(pair.elts[0]):
@@ -277,9 +277,9 @@ def _misspelt_folder(
 
 
 def misspelt_targets(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
-    """Report a target that is almost the folder that its files are in.
+    """Report a target that misspells the folder of its files.
 
-    One that a launch file names is right, or the finding of another rule.
+    A target that a launch file names is right, or another rule reports it.
     """
     share = f"share/{around.files.name}"
     paths = [fact.value for launch in around.launches for fact in launch.paths]
@@ -308,7 +308,7 @@ def misspelt_targets(setup: SetupFile, around: Surroundings) -> Iterator[Problem
 
 
 def _installed(around: Surroundings) -> Installed | None:
-    """What is installed; None when that is not certain."""
+    """The installed files and folders; None when they are not certain."""
     share = f"share/{around.files.name}"
     made = partial(Installed, folder=around.files.folder, share=share)
     cmake, setup = around.cmake, around.setup
@@ -356,7 +356,7 @@ def _by_cmake(cmake: CMakeFile, around: Surroundings) -> list[Piece] | None:
 def _of_command(
     command: CMakeCommand, target: CMakeWord, cmake: CMakeFile, around: Surroundings
 ) -> list[Piece] | None:
-    """What one install( … ) does; None when that is not certain."""
+    """The files and folders of one install( … ); None when they are not certain."""
     right = _corrected(target.text, around)
     if right is None:
         return None
@@ -385,9 +385,9 @@ def _of_command(
 
 
 def _corrected(target: str, around: Surroundings) -> str | None:
-    """The DESTINATION that is meant by another one, or the same when it is right.
+    """The right DESTINATION for a misspelt one, or the same for a right one.
 
-    None when it is not certain where this one leads.
+    None when its value is not certain.
     """
     cmake = around.cmake
     if cmake is None:

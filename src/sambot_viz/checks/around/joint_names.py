@@ -1,4 +1,4 @@
-"""Joints of plugins and controllers, and <gazebo reference>, against the model."""
+"""Compare joints of plugins and controllers, and references, with the model."""
 
 from __future__ import annotations
 
@@ -101,13 +101,13 @@ def _unknown_joints(
 
 
 class _User(NamedTuple):
-    """What names a joint.
+    """A plugin or controller that names a joint.
 
     Attributes:
         name: for messages.
-        drives: whether it has to turn the joint.
+        drives: it must turn the joint.
         side: where the wheel of the joint is.
-        taken: the joints that it has for other wheels.
+        taken: the joints of its other wheels.
     """
 
     name: str
@@ -177,13 +177,13 @@ def _unknown(robot: Robot, fact: Fact, user: _User) -> tuple[str, Fix]:
 
 
 def unknown_references(robot: Robot) -> Iterator[Problem]:
-    """Report <gazebo reference="…"> that is not a link or joint.
+    """Report <gazebo reference="…"> that is neither a link nor a joint.
 
-    Without a sensor or plugin in it, only what is almost the name of one.
+    Without a sensor or plugin inside, only a misspelt name counts.
     """
     known: Mapping[str, Link | Joint] = {**robot.joints, **robot.links}
     used = {part.get("reference") for part in robot.gazebo}
-    # What has its own <gazebo> is not what another one means.
+    # A link with its own <gazebo> is not the intended one of another <gazebo>.
     free = [name for name in known if name not in used]
     for part in robot.gazebo:
         name = part.get("reference") or ""
@@ -196,7 +196,7 @@ def unknown_references(robot: Robot) -> Iterator[Problem]:
         near = near or next((each for each in ends if each in free), None)
         if matters and near is None:
             near = _with_its_words(name, [link for link in robot.links if link in free])
-        # One link may have several <gazebo>, with other words in each.
+        # One link may have several <gazebo>, each with different elements.
         near = near or next((each for each in known if is_one_slip(name, each)), None)
         if near is None and not matters:
             continue

@@ -1,4 +1,4 @@
-"""Joint states that nobody publishes: in a launch file, and in Gazebo for a bridge."""
+"""Report joint states without a publisher, in launch files and behind bridges."""
 
 from __future__ import annotations
 
@@ -52,12 +52,12 @@ def no_joint_states(around: Surroundings) -> Iterator[Problem]:
 
 
 def unsent_joint_states(around: Surroundings) -> Iterator[Problem]:
-    """Report a bridge for joint states, and no plugin that sends them there."""
+    """Report a bridge for joint states without a plugin that sends them."""
     drives = [p for p in around.plugins if p.is_drive and p.generation == "gz"]
     if not drives or any("ros2_control" in p.filename for p in around.plugins):
         return
     if any(near_system(plugin.filename) for plugin in around.plugins):
-        # One of them may be meant to.
+        # One of them may misspell the intended plugin.
         return
     carried = (e for e in around.bridged if e.kind == "Model")
     entry = next((e for e in carried if e.reaches_ros), None)

@@ -1,4 +1,4 @@
-"""The parameters that nodes and their plugins know, from the table parameters.txt."""
+"""Read the parameters that nodes and plugins know from the table parameters.txt."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Age:
     Attributes:
         first: the first one.
         last: the last one.
-        successor: what it is called after that; empty for nothing.
+        successor: its later name; empty without one.
     """
 
     first: int = 0
@@ -48,7 +48,7 @@ class Age:
 
     @classmethod
     def of(cls, text: str) -> Age:
-        """Read ``first-last->successor``, of which all may be missing."""
+        """Read ``first-last->successor``; each of the three may be missing."""
         ages, _, successor = text.partition("->")
         first, _, last = ages.partition("-")
         begin = _DISTRIBUTIONS.index(first) if first else 0
@@ -78,16 +78,16 @@ class KnownParameter:
     Attributes:
         name: its name, with N for a number.
         kind: the type of its value, as the table has it.
-        low: the least usual number.
-        high: the greatest usual number.
-        above: `low` itself is too small.
+        low: the lowest usual number.
+        high: the highest usual number.
+        above: a number must be above `low`.
         strict: the node stops with another number or word.
-        words: the only words that it may be; empty for any.
+        words: the only allowed words; empty for any.
         base: the base class of the plugins that it names.
         pattern: the class of a name in a list, with * for the name.
-        own: lists that need no section, because the node has them by itself.
-        at_most: the parameter that is not smaller.
-        counts: so many items a list has; empty for any number.
+        own: lists of names that need no sections, because the node has these built in.
+        at_most: the parameter that is the upper limit of this one.
+        counts: the allowed numbers of items in a list; empty for any number.
         age: the distributions that have it.
         needed: the node does not start without it; for a name with *, without one for
             each of the names that others have there.
@@ -117,7 +117,7 @@ class ParameterBlock:
 
     Attributes:
         parameters: name → parameter.
-        is_whole: there are no others.
+        is_whole: it has no other parameters.
     """
 
     parameters: dict[str, KnownParameter] = field(
@@ -158,7 +158,7 @@ class ParameterBlock:
 
     @cached_property
     def parts(self) -> ParameterBlock:
-        """All that the parts which it lists may have."""
+        """The parameters that its listed parts may have."""
         whole = ParameterBlock()
         for known in self.parameters.values():
             if known.kind in LISTS:
@@ -173,11 +173,11 @@ class ParameterBlock:
         )
 
     def meant(self, name: str, given: Container[str]) -> str | None:
-        """Return the parameter that was meant by an unknown name.
+        """Return the parameter that an unknown name misspells.
 
         Args:
             name: as the file has it.
-            given: the names of all parameters here; none of these was meant.
+            given: the names of all parameters here, which are not candidates.
         """
         if self.find(name) is not None:
             return None
@@ -217,7 +217,7 @@ class PluginClass(NamedTuple):
     Attributes:
         name: as files have it.
         base: its base class.
-        age: the distributions that have it by this name.
+        age: the distributions that have it under this name.
         block: its parameters.
     """
 
@@ -229,12 +229,12 @@ class PluginClass(NamedTuple):
 
 @dataclass(frozen=True)
 class ParameterTable:
-    """All that is known.
+    """The known nodes and plugins with their parameters.
 
     Attributes:
-        nodes: the name that a node usually has → its parameters.
+        nodes: usual name of a node → its parameters.
         classes: name of a class → the class.
-        common: the parameters that every node may have.
+        common: the parameters of every node.
     """
 
     nodes: Mapping[str, ParameterBlock]

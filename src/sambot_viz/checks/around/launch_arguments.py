@@ -1,4 +1,4 @@
-"""Launch arguments that are used and nowhere declared, in every form of launch file."""
+"""Report launch arguments that a launch file of any form uses and nothing declares."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ class _File(NamedTuple):
 
     Attributes:
         declared: name → where.
-        used: name and where, of those without a default value there.
-        given: the names of those that files have which it includes.
-        written: how one is used, with {} for the name.
+        used: name and place of each use without a default value.
+        given: the names of those of the included files.
+        written: the syntax of a use, with {} for the name.
         certain: no other action sets one.
         includes: it includes other files.
     """
@@ -42,13 +42,13 @@ class _File(NamedTuple):
 
 
 def undeclared_arguments(around: Surroundings) -> Iterator[Problem]:
-    """Report arguments that are used under another name than they are declared."""
+    """Report arguments whose use and declaration have different names."""
     files = [_of_python(launch) for launch in around.launches]
     files += [_of_frontend(root) for each in around.packages for root in each.frontends]
     given = {name for file in files for name in file.given}
     every = given.union(*(file.declared for file in files))
     for file in files:
-        # What an included file declares is there after it.
+        # The arguments of an included file exist after the include.
         known = every if file.includes else given.union(file.declared)
         for name, place in file.used if file.certain else ():
             if name and name not in known:
@@ -58,7 +58,7 @@ def undeclared_arguments(around: Surroundings) -> Iterator[Problem]:
 def declared_in(package: Package) -> dict[str, Mapping[str, Place]]:
     """Return the launch files of a package, with the arguments that each declares.
 
-    Those that it may have from files which it includes are not among them.
+    Without those that its included files declare.
     """
     files = {launch.shown: _of_python(launch) for launch in package.launches}
     files |= {root.place.file: _of_frontend(root) for root in package.frontends}
@@ -69,7 +69,8 @@ def _undeclared(name: str, place: Place, file: _File) -> Problem:
     near = nearest(name, file.declared, _LIKENESS)
     cause = f"the launch argument {name} is not declared"
     if near is None:
-        # Who includes the file may give it; one that declares others means to be whole.
+        # An including file may set it; a file that declares others declares all of its
+        # own.
         whole = file.declared and not file.includes
         return Problem.at(
             place,

@@ -1,4 +1,4 @@
-"""Arguments of the actions in launch files, by name and by type."""
+"""Check arguments of the actions in launch files, by name and by type."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _ENDINGS = (".yaml", ".yml", ".sdf", ".world", ".rviz")
 
 
 def arguments_that_are_no_texts(around: Surroundings) -> Iterator[Problem]:
-    """Report defaults and launch arguments that are no texts, and a table of them."""
+    """Report defaults and launch arguments that are not texts, and a dict of them."""
     for launch in around.launches:
         for call in launch.called("DeclareLaunchArgument"):
             default = call.given("default_value", 1)
@@ -95,13 +95,13 @@ def _stops(value: ast.expr, launch: LaunchFile, cause: str, right: str) -> Probl
 
 
 def calls_without_argument(around: Surroundings) -> Iterator[Problem]:
-    """Report calls that lack the argument which they need."""
+    """Report calls without an argument that they need."""
     for launch in around.launches:
         for call in launch.called(*_NEEDED):
             name = _NEEDED[call.name]
             node = call.node
             words = vocabulary("launch_calls")[call.name]
-            # A keyword that is not known may be this one, misspelt.
+            # An unknown keyword may misspell this one.
             others = {k.arg for k in node.keywords}.difference(words) - {None}
             given = any(k.arg in (name, None) for k in node.keywords)
             if given or others or (node.args and call.name not in NODES):
@@ -116,7 +116,7 @@ def calls_without_argument(around: Surroundings) -> Iterator[Problem]:
 
 
 def paths_from_the_root(around: Surroundings) -> Iterator[Problem]:
-    """Report a slash before a part of a path, where os.path.join begins again."""
+    """Report a slash before a part of a path, where os.path.join starts afresh."""
     for launch in around.launches:
         for call in launch.called("join"):
             path = launch.values.text(call.node) or ""
@@ -143,15 +143,15 @@ def paths_from_the_root(around: Surroundings) -> Iterator[Problem]:
 
 
 def files_without_folder(around: Surroundings) -> Iterator[Problem]:
-    """Report files of the package that are looked for where ros2 launch is run.
+    """Report files that ros2 launch looks for in the working folder.
 
-    Other files of the same launch file are looked for in the package.
+    Only where the launch file takes other files from the package.
     """
     has: Mapping[str, str] = {
         posixpath.basename(path): path for path in around.files.ending(*_ENDINGS)
     }
     for launch in around.launches:
-        # One that names all of its files so is run in the folder of the package.
+        # A launch file that names all files this way runs in the folder of the package.
         for call in launch.calls if launch.paths else ():
             for given in _paths(call, launch):
                 said = launch.values.text(given) or ""

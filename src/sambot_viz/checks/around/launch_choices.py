@@ -1,4 +1,4 @@
-"""Values in launch files that launch compares with a few words."""
+"""Check values in launch files for which launch accepts only a few words."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ _STOPS = "ros2 launch stops with it"
 
 
 class _Choice(NamedTuple):
-    """A value that has to be one of some words.
+    """A value that must be one of a few words.
 
     Attributes:
-        name: what has it.
+        name: the argument or key that has it.
         value: the value.
         words: the words.
         place: of the value.
@@ -42,7 +42,7 @@ class _Choice(NamedTuple):
 
 
 def other_words(around: Surroundings) -> Iterator[Problem]:
-    """Report an output, a default and a condition that is none of the words for it."""
+    """Report an output, a default and a condition with an unknown word."""
     for one in (*_in_python(around), *_in_elements(around)):
         if one.value not in one.words:
             near = nearest(one.value, one.words, _LIKENESS)
@@ -85,7 +85,7 @@ def misspelt_truths(around: Surroundings) -> Iterator[Problem]:
 
 
 def _texts(around: Surroundings) -> Iterator[tuple[str, Place]]:
-    """Give the values of arguments and keys in launch files."""
+    """Yield the values of arguments and keys in launch files."""
     for launch in around.launches:
         for node in ast.walk(launch.tree):
             values: list[ast.expr] = []

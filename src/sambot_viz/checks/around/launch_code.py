@@ -1,4 +1,4 @@
-"""What stops ``ros2 launch`` in a launch file that Python can read."""
+"""Find what stops ``ros2 launch`` in a launch file that Python can read."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ def _without_return(function: ast.FunctionDef, launch: LaunchFile) -> Problem:
 
 
 def unknown_names(around: Surroundings) -> Iterator[Problem]:
-    """Report names that are used and neither imported nor defined."""
+    """Report used names that the file neither imports nor defines."""
     for file in python_files(around):
         undefined = undefined_names(file.tree)
         bound = bound_names(file.tree) if undefined else set[str]()
@@ -151,7 +151,7 @@ def unknown_names(around: Surroundings) -> Iterator[Problem]:
 
 
 def missing_commas(around: Surroundings) -> Iterator[Problem]:
-    """Report two items of a list without a comma, which Python takes for a call."""
+    """Report two items of a list without a comma: Python reads them as a call."""
     for file in python_files(around):
         for node in ast.walk(file.tree):
             item = node.func if isinstance(node, ast.Call) else None
@@ -190,7 +190,7 @@ def _comma(item: ast.expr, file: LaunchFile | SetupFile) -> Fix:
 
 
 def python_files(around: Surroundings) -> Iterator[LaunchFile | SetupFile]:
-    """Give the launch files and the setup.py of each package."""
+    """Yield the launch files and the setup.py of each package."""
     for package in around.packages:
         yield from package.launches
         if package.setup is not None:
@@ -198,14 +198,14 @@ def python_files(around: Surroundings) -> Iterator[LaunchFile | SetupFile]:
 
 
 def stopped(file: LaunchFile | SetupFile) -> tuple[str, str]:
-    """Return the code of a finding, and what stops."""
+    """Return the code of a finding, and the program that stops."""
     if isinstance(file, LaunchFile):
         return _CODE, "ros2 launch"
     return "setup-py-code", "colcon build"
 
 
 def undefined_names(tree: ast.Module) -> dict[str, ast.Name]:
-    """Return the names without a value, each where it is used first."""
+    """Return the names without a value, each with its first use."""
     bound = bound_names(tree)
     found: dict[str, ast.Name] = {}
     for node in ast.walk(tree) if "*" not in bound else ():
@@ -240,13 +240,14 @@ def _advice(
         return _imported(f"import {name}", file)
     near = nearest(name, sorted(own), 0.7) or nearest(name, known, 0.85)
     if name in _texts(file.tree):
-        # It is quoted elsewhere: the name of an argument, of a package, of a node.
+        # Another place has it in quotation marks: it names an argument, package or
+        # node.
         return rewritten(node, file.shown, f"'{name}'")
     every = [n for n in ast.walk(file.tree) if isinstance(n, ast.Name)]
     stored = [n for n in every if n.id == near]
     often = sum(n.id == name for n in every) > 1
     if often and near is not None and [type(n.ctx) for n in stored] == [ast.Store]:
-        # Others read the undefined name too, and nothing reads this one.
+        # Other lines read the undefined name too, and no line reads this one.
         return write(file.place(stored[0]), near, name, f" in line {stored[0].lineno}")
     if near in own:
         return write(file.place(node), name, near)
@@ -276,12 +277,12 @@ def _imported(line: str, file: LaunchFile | SetupFile) -> Fix:
 
 
 def bound_names(tree: ast.Module) -> set[str]:
-    """Return all names that get a value anywhere in a file; "*" when others may."""
+    """Return all names that get a value anywhere in a file; "*" for possible others."""
     return {*PREDEFINED, *names_in(tree)}
 
 
 def names_in(tree: ast.AST) -> set[str]:
-    """Return the names that get a value in a piece of Python; "*" when others may."""
+    """Return the names that get a value in some Python; "*" for possible others."""
     found: set[str] = set()
     for node in ast.walk(tree):
         match node:

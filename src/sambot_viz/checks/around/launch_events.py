@@ -1,4 +1,4 @@
-"""Event handlers and timers of launch files: what they wait for, and what they take."""
+"""Check event handlers and timers of launch files: targets and arguments."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _LISTS = {
 
 
 def handlers_that_wait(around: Surroundings) -> Iterator[Problem]:
-    """Report handlers that wait for an action which nothing starts before."""
+    """Report handlers that wait for an action that nothing starts before."""
     for launch in around.launches:
         handlers = {
             target.id: call
@@ -57,7 +57,7 @@ def _waits(
     handlers: dict[str, Call],
     starts_it: bool,
 ) -> Problem:
-    """Report a handler that waits for what it starts, or for what never starts."""
+    """Report a handler that waits for its own action, or for one that never starts."""
     target = call.given("target_action") or call.node
     what = "the end of " if call.name == "OnProcessExit" else ""
     cause = f"this handler waits for {what}{name}, which "
@@ -79,7 +79,7 @@ def _waits(
 
 
 def _that_end(launch: LaunchFile) -> Iterator[str]:
-    """Give the variables of nodes that end by themselves."""
+    """Yield the variables of nodes that end by themselves."""
     for node in ast.walk(launch.tree):
         match node:
             case ast.Assign(targets=[ast.Name(id=name)], value=ast.Call() as value):
@@ -91,7 +91,7 @@ def _that_end(launch: LaunchFile) -> Iterator[str]:
 
 
 def texts_for_actions(around: Surroundings) -> Iterator[Problem]:
-    """Report a handler whose action is named in quotation marks."""
+    """Report a handler with the name of its action in quotation marks."""
     for launch in around.launches:
         bound = bound_names(launch.tree)
         for call in launch.called(*_HANDLERS):

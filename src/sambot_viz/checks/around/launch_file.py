@@ -1,4 +1,4 @@
-"""What a Python launch file starts, and which files, nodes and topics it names."""
+"""Find what a Python launch file starts, and the names in it."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ class LaunchNode(NamedTuple):
     """A node that a launch file starts.
 
     Attributes:
-        executable: the program; empty when it is not known.
+        executable: the program; empty when it is unknown.
         name: the name it gets, or None for the program's own.
         files: its parameter files, as paths in packages.
-        sim_time: what it is told for use_sim_time, or None.
-        arguments: its arguments, as far as they are known.
+        sim_time: its value of use_sim_time, or None.
+        arguments: its known arguments.
         place: its line.
     """
 
@@ -76,7 +76,7 @@ class LaunchFile:
 
     @cached_property
     def values(self) -> PythonValues:
-        """The values in the file; its launch arguments stand for their defaults."""
+        """The values in the file; a launch argument has its default."""
         found = PythonValues(self.tree, self.shown, CALLS)
         for call in found.calls:
             name = found.text(call.given("name", 0))
@@ -91,7 +91,7 @@ class LaunchFile:
         return self.values.calls
 
     def text(self, call: Call, name: str, position: int | None = None) -> str | None:
-        """Return the text of an argument, None when it is not certain or not given."""
+        """Return the text of an argument; None for an uncertain or missing one."""
         return self.values.text(call.given(name, position))
 
     @cached_property
@@ -105,7 +105,7 @@ class LaunchFile:
         return found
 
     def origin(self, node: ast.expr) -> ast.expr:
-        """Return the expression that variables and a ParameterValue stand for."""
+        """Return the expression inside variables and a ParameterValue."""
         for _ in range(limits.YAML_DEPTH.value):
             match node:
                 case ast.Name(id=name):
@@ -120,12 +120,12 @@ class LaunchFile:
         return node
 
     def named(self, text: str) -> str | None:
-        """Return the variable that stands for a text, or None."""
+        """Return the variable that holds a text, or None."""
         said = ((name, self.values.text(node)) for name, node in self._set.items())
         return next((name for name, value in said if value == text), None)
 
     def called(self, *actions: str) -> Iterator[Call]:
-        """Give the calls of actions, of those that start a node by default."""
+        """Yield the calls of actions, by default of those that start a node."""
         names = frozenset(actions) or NODES
         return (call for call in self.calls if call.name in names)
 
@@ -140,7 +140,7 @@ class LaunchFile:
 
     @cached_property
     def said(self) -> frozenset[str]:
-        """The texts that are no names of launch arguments and no parts of paths."""
+        """The texts that are neither names of launch arguments nor parts of paths."""
         naming = {
             id(part)
             for call in self.called(*_JOINS)
@@ -172,12 +172,12 @@ class LaunchFile:
         )
 
     def uses(self, variable: str) -> bool:
-        """Return whether the value of a variable is used."""
+        """Return whether the file uses the value of a variable."""
         return variable in self._used
 
     @cached_property
     def in_use(self) -> list[Call]:
-        """The calls whose variable is used where there is one."""
+        """The calls without a variable, or with a variable that the file uses."""
         unused = {
             id(node.value)
             for node in ast.walk(self.tree)
@@ -195,7 +195,7 @@ class LaunchFile:
 
     @cached_property
     def nodes(self) -> list[LaunchNode]:
-        """The nodes that are always started."""
+        """The nodes that always start."""
         return [self._node(call) for call in self.certain if call.name in NODES]
 
     def _node(self, call: Call) -> LaunchNode:
@@ -206,7 +206,7 @@ class LaunchFile:
             if isinstance(item, Table):
                 sim_time = self._sim_time(item) or sim_time
                 continue
-            # Of a file that is rewritten, the names in it may be others.
+            # The names in a rewritten file may be different.
             path = None if isinstance(item, FromFile) else said(item)
             if path is not None:
                 files.append(Fact(path, self.place(node)))
@@ -228,14 +228,14 @@ class LaunchFile:
             if isinstance(value, LaunchArgument):
                 declared = said(value.name) in self.values.defaults
             if text is None or (flag(text) is False and not declared):
-                # Another launch file, which includes this one, may say true.
+                # Another launch file that includes this one may set true.
                 return None
             return Fact(text, self.place(node))
         return None
 
     @cached_property
     def paths(self) -> list[Fact]:
-        """All paths in the share folders of packages, such as package://p/config."""
+        """All paths in share folders of packages, such as package://p/config."""
         found: dict[tuple[str, int], Fact] = {}
         lists: set[int] = set()
         for call in self.calls:

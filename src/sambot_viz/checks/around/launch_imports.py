@@ -1,4 +1,4 @@
-"""Names that launch files import from modules that do not have them."""
+"""Report names that launch files import from modules without them."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def _wrong(node: ast.ImportFrom, launch: LaunchFile) -> Iterator[Problem]:
 
 
 def _meant(module: str, name: str) -> tuple[str, str] | None:
-    """Return the module and the name that were meant; None for a right import."""
+    """Return the right module and name; None for a right import."""
     table = vocabulary(_TABLE)
     if module in table:
         if name in table[module] or f"{module}.{name}" in table:

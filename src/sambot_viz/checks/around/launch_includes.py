@@ -1,4 +1,4 @@
-"""Launch files that others include: where they are, and which arguments they have."""
+"""Check included launch files: their paths and their arguments."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class _Included:
 
     Attributes:
         name: its file name.
-        arguments: those that it declares, as words of a vocabulary.
+        arguments: its declared arguments, as words of a vocabulary.
     """
 
     name: str
@@ -84,7 +84,7 @@ def _declared(around: Surroundings) -> dict[str, Mapping[str, object]]:
 
 
 def _included(around: Surroundings, launch: LaunchFile, call: Call) -> _Included | None:
-    """Return what is known of the file that is included."""
+    """Return the known facts of the included file."""
     path = launch.text(call, "launch_description_source", 0) or ""
     package, _, below = path.removeprefix(SHARE).partition("/")
     name = below.rpartition("/")[2]
@@ -101,7 +101,7 @@ def _included(around: Surroundings, launch: LaunchFile, call: Call) -> _Included
 
 
 def misplaced_includes(around: Surroundings) -> Iterator[Problem]:
-    """Report launch files of well-known packages that are not where they are."""
+    """Report paths at which a well-known package does not have its launch file."""
     files: dict[str, list[str]] = {}
     for whole in vocabulary("launch_files"):
         package, _, name = whole.partition("/")
@@ -123,7 +123,7 @@ def misplaced_includes(around: Surroundings) -> Iterator[Problem]:
 def _misplaced(
     launch: LaunchFile, call: Call, package: str, below: str, right: str
 ) -> Problem:
-    """Report one file, at the text that names it where there is one."""
+    """Report one file, if possible at the text that names it."""
     name = below.rpartition("/")[2]
     given = call.given("launch_description_source", 0) or call.node
     texts = [n for n in ast.walk(given) if isinstance(n, ast.Constant)]

@@ -1,4 +1,4 @@
-"""Words of commands and parts of paths that launch joins, or does not take apart."""
+"""Report words of commands and parts of paths that launch joins wrongly."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ _PATHS = frozenset({"PathJoinSubstitution", "join"})
 
 
 def several_words(around: Surroundings) -> Iterator[Problem]:
-    """Report arguments of a program that are several words in one, or numbers."""
+    """Report program arguments with several words in one text, and numbers."""
     for launch in around.launches:
         for call in launch.calls:
             whole = call.given("shell") is not None
             for argument in _WORDS:
                 option = ""
                 for item, node in call.listing(argument).items:
-                    # What follows an option may be several words for another program.
+                    # An option may precede several words for another program.
                     is_value, option = option[:1] == "-", launch.values.said(item) or ""
                     if isinstance(node, ast.Constant) and not whole:
                         yield from _no_word(node, launch, argument, is_value)
@@ -67,7 +67,7 @@ def _no_word(
 
 
 def joined_texts(around: Surroundings) -> Iterator[Problem]:
-    """Report two words of a command that are one, because a comma is missing."""
+    """Report two words of a command that a missing comma joins."""
     for launch, text in around.launch_texts():
         lines = text.splitlines()
         for call in launch.calls:
@@ -78,7 +78,7 @@ def joined_texts(around: Surroundings) -> Iterator[Problem]:
 
 
 def _is_joined(node: ast.expr, lines: list[str]) -> bool:
-    """True for two texts, each alone in a line, that do not look like one."""
+    """True for two texts, each alone in a line, that do not look like one text."""
     last = node.end_lineno or node.lineno
     if not isinstance(node, ast.Constant) or last != node.lineno + 1:
         return False
@@ -88,7 +88,7 @@ def _is_joined(node: ast.expr, lines: list[str]) -> bool:
 
 
 def _alone(line: str) -> str | None:
-    """Return the text in quotation marks that a line is."""
+    """Return the text of a line that is only a text in quotation marks."""
     found = re.fullmatch(r"\s*(['\"])([^'\"\\]*)\1\s*,?\s*(#.*)?", line)
     return None if found is None else found[2]
 
@@ -106,7 +106,7 @@ def _joined(node: ast.expr, launch: LaunchFile, lines: list[str]) -> Problem:
 
 
 def joined_words(around: Surroundings) -> Iterator[Problem]:
-    """Report words of a command that are one, because no blank is between them."""
+    """Report words of a command that a missing blank joins."""
     for launch in around.launches:
         for call in launch.called("Command"):
             words = call.listing("command", 0).items
@@ -123,7 +123,7 @@ def joined_words(around: Surroundings) -> Iterator[Problem]:
 def _glued(
     launch: LaunchFile, nodes: Sequence[ast.expr], at: int, node: ast.expr
 ) -> Iterator[Problem]:
-    """Report xacro without a blank behind it, or an argument without one before it."""
+    """Report xacro without a blank after it, or an argument without one before it."""
     text = node.value if isinstance(node, ast.Constant) else None
     if not isinstance(text, str) or len(nodes) < 2:
         return
@@ -156,7 +156,7 @@ def _glued(
 
 
 def _option_pairs(launch: LaunchFile) -> Iterator[tuple[ast.expr, ast.expr]]:
-    """Give each two parts that are joined in a launch argument."""
+    """Yield each two joined parts in a launch argument."""
     for call in launch.called("IncludeLaunchDescription"):
         given = call.given("launch_arguments")
         for node in ast.walk(given) if given is not None else ():
@@ -168,7 +168,7 @@ def _option_pairs(launch: LaunchFile) -> Iterator[tuple[ast.expr, ast.expr]]:
 def _glued_option(
     launch: LaunchFile, pair: tuple[ast.expr, ast.expr]
 ) -> Iterator[Problem]:
-    """Report options that become a part of the path behind them."""
+    """Report options that become a part of the path after them."""
     node, path = pair
     text = node.value if isinstance(node, ast.Constant) else None
     after = launch.values.text(path) or "x"
@@ -205,13 +205,13 @@ def _glued_in_xml(element: Element) -> Iterator[Problem]:
 
 
 def joined_paths(around: Surroundings) -> Iterator[Problem]:
-    """Report parts of a path that are joined without a slash."""
+    """Report parts of a path that a launch file joins without a slash."""
     for launch in around.launches:
         inner = {
             id(part)
             for call in ast.walk(launch.tree)
             if isinstance(call, ast.Call)
-            # One that is misspelt has another finding.
+            # A misspelt one has another finding.
             if nearest(call_name(call.func) or "", _PATHS, _LIKENESS)
             for part in (*call.args, *(k.value for k in call.keywords))
         }

@@ -1,4 +1,4 @@
-"""Values in Python launch files of another kind than launch takes there."""
+"""Report values in Python launch files of a kind that launch does not accept."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def arguments_without_list(around: Surroundings) -> Iterator[Problem]:
 
 
 def _no_list(call: Call, argument: str) -> str | None:
-    """Return what an argument is that is not a list; None when it may be one."""
+    """Return the kind of an argument that is not a list; None for a possible list."""
     value = call.value(argument)
     if argument == "arguments":
         return "a text" if isinstance(value, str) else None
@@ -76,7 +76,7 @@ def _no_list(call: Call, argument: str) -> str | None:
 
 
 def _pairs(given: ast.expr, argument: str) -> str:
-    """Write what is to be in the list."""
+    """Write the items of the list."""
     if argument == "remappings" and isinstance(given, ast.Dict):
         both = zip(given.keys, given.values, strict=True)
         known = [(ast.unparse(key), ast.unparse(value)) for key, value in both if key]
@@ -87,7 +87,7 @@ def _pairs(given: ast.expr, argument: str) -> str:
 
 
 def remappings_without_pairs(around: Surroundings) -> Iterator[Problem]:
-    """Report remappings that are no tuples of two names."""
+    """Report remappings that are not tuples of two names."""
     for launch in around.launches:
         for call in launch.called():
             given = call.given("remappings")
@@ -147,7 +147,7 @@ def reversed_remappings(around: Surroundings) -> Iterator[Problem]:
 def _misspelt(
     node: RunningNode, old: str, own: set[str], place: Place
 ) -> Iterator[Problem]:
-    """Report a remapping from what is almost a name of the node."""
+    """Report a remapping from a misspelt name of the node."""
     near = [name for name in own if is_one_slip(bare(old), name)]
     is_word = near and not any(map(str.isdigit, old + near[0]))
     if len(near) == 1 and is_word and len(near[0]) > _SHORT:
@@ -188,7 +188,7 @@ _DECLARES = ("DeclareLaunchArgument",)
 
 
 def lists_of_actions(around: Surroundings) -> Iterator[Problem]:
-    """Report an action where a list of them is needed, and a list in place of one."""
+    """Report an action in place of a list of actions, and a list in place of one."""
     for launch in around.launches:
         for call in launch.called(*_ACTIONS):
             given = call.given(*_ACTIONS[call.name])
@@ -207,7 +207,7 @@ def lists_of_actions(around: Surroundings) -> Iterator[Problem]:
 
 
 def _no_actions(listing: Listing, launch: LaunchFile) -> Iterator[Problem]:
-    """Report the items of a list that are no actions."""
+    """Report the items of a list that are not actions."""
     for item, node in listing.items:
         if isinstance(item, Listing) and isinstance(node, (ast.List, ast.Tuple)):
             yield Problem.at(
@@ -230,7 +230,7 @@ def _no_actions(listing: Listing, launch: LaunchFile) -> Iterator[Problem]:
 
 
 def plain_substitutions(around: Surroundings) -> Iterator[Problem]:
-    """Report $(find …) and its like in the texts of a Python launch file."""
+    """Report $(find …) and similar substitutions in texts of a Python launch file."""
     for launch in around.launches:
         documents = {
             id(step.value)
@@ -259,7 +259,7 @@ def plain_substitutions(around: Surroundings) -> Iterator[Problem]:
 
 
 def misspelt_time(around: Surroundings) -> Iterator[Problem]:
-    """Report parameters of a node that are almost use_sim_time."""
+    """Report misspelt use_sim_time among the parameters of a node."""
     right = "use_sim_time"
     for launch in around.launches:
         for call in launch.called():

@@ -1,4 +1,4 @@
-"""Members that a Python launch file reads and nothing has, and names read too early."""
+"""Report missing members in Python launch files, and names read too early."""
 
 from __future__ import annotations
 
@@ -37,10 +37,10 @@ _OTHER_SCOPES = (
 
 
 class _Owner(NamedTuple):
-    """What has members.
+    """A module or value with members.
 
     Attributes:
-        name: what a message calls it.
+        name: its name in a message.
         members: the names of these.
     """
 
@@ -49,7 +49,7 @@ class _Owner(NamedTuple):
 
 
 def misspelt_members(around: Surroundings) -> Iterator[Problem]:
-    """Report a member that a module or a value does not have, where one is meant."""
+    """Report a misspelt member of a module or a value."""
     for launch in around.launches:
         members = (n for n in ast.walk(launch.tree) if isinstance(n, ast.Attribute))
         for node in members:
@@ -87,7 +87,7 @@ def _owner(node: ast.expr) -> _Owner | None:
 
 
 def names_before_values(around: Surroundings) -> Iterator[Problem]:
-    """Report variables that are read above the line that gives them a value."""
+    """Report variables that the file reads above the line that sets them."""
     for launch in around.launches:
         bodies = [(launch.tree.body, PREDEFINED)]
         for node in ast.walk(launch.tree):
@@ -109,7 +109,7 @@ def names_before_values(around: Surroundings) -> Iterator[Problem]:
 
 
 def _named(launch: LaunchFile) -> Iterator[ast.expr | None]:
-    """Give what names an argument, a package or a program, and so is mostly a text."""
+    """Yield names of arguments, packages and programs, which are mostly texts."""
     for call in launch.called("LaunchConfiguration", "FindPackageShare"):
         yield from call.node.args[:1]
     for call in launch.called():
@@ -137,7 +137,7 @@ def _too_early(
 
 
 def _read_in(step: ast.stmt) -> Iterator[ast.Name]:
-    """Give the names that a step reads itself, not a function in it."""
+    """Yield the names that a step reads itself, without the functions in it."""
     waiting: list[ast.AST] = [step]
     while waiting:
         node = waiting.pop()

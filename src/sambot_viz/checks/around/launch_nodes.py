@@ -1,4 +1,4 @@
-"""What launch files give to the nodes that they start."""
+"""Check what launch files give to the nodes that they start."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def described_in_xml(around: Surroundings) -> Iterator[Problem]:
 
 
 def _gets_nothing_else(launch: LaunchFile, call: Call) -> bool:
-    """True when all parameters are in the call, and there are no arguments."""
+    """True when the call has all parameters, and no arguments."""
     others = {"SetParameter", "SetParametersFromFile", "GroupAction"}
     return (
         call.complete
@@ -95,7 +95,7 @@ def _gets_nothing_else(launch: LaunchFile, call: Call) -> bool:
 
 
 def _without_text(pair: Pair, launch: LaunchFile) -> Iterator[Problem]:
-    """Report a path, a file that is not read, and a document that is not text."""
+    """Report a path, an unread file or an XML document in place of a model's text."""
     text, bare = launch.values.said(pair.value), ast.unparse(pair.node)
     given = launch.origin(pair.node)
     what = better = None
@@ -122,7 +122,7 @@ def _without_text(pair: Pair, launch: LaunchFile) -> Iterator[Problem]:
 
 
 def _command(value: ast.expr, bound: set[str]) -> str:
-    """Write what reads a model, for its path in a launch file."""
+    """Write the expression that reads a model, for its path in a launch file."""
     while isinstance(value, ast.Call) and call_name(value.func) == "ParameterValue":
         value = value.args[0]
     command = f"Command(['xacro ', {ast.unparse(value)}])"
@@ -134,7 +134,7 @@ def _command(value: ast.expr, bound: set[str]) -> str:
 
 
 def rviz_without_option(around: Surroundings) -> Iterator[Problem]:
-    """Report a config that is given to rviz2 without -d."""
+    """Report a config for rviz2 without -d before it."""
     for launch, call in _nodes(around):
         if launch.text(call, "executable") != "rviz2":
             continue

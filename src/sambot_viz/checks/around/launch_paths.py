@@ -1,4 +1,4 @@
-"""Files, worlds and parameter files that launch files name."""
+"""Check files, worlds and parameter files that launch files name."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ _MODELS = (".urdf", ".xacro", ".sdf")
 
 
 def missing_files(around: Surroundings) -> Iterator[Problem]:
-    """Report files that a launch file names otherwise than they are called."""
+    """Report files that a launch file names wrongly."""
     python = {launch.shown: launch for launch in around.launches}
     known: set[tuple[str, str]] = set()
     for fact in (*_python_paths(around), *around.running.paths):
@@ -102,13 +102,13 @@ def missing_plugin_files(around: Surroundings) -> Iterator[Problem]:
 
 
 def _has_instead(other: Package, below: str, package: Package) -> bool:
-    """Tell whether a package has the file of another one, whose build it is not in."""
+    """Return whether a package has a file that the build of another one lacks."""
     nested = package.folder in other.folder.parents
     return "/" in below and below in other.paths and not nested
 
 
 def _python_paths(around: Surroundings) -> Iterator[Fact]:
-    """Give the paths in Python files, each where it is put together."""
+    """Yield the paths in Python files, each at the expression that builds it."""
     for launch in around.launches:
         yield from launch.paths
 
@@ -128,7 +128,7 @@ def _missing(
 
 
 def _renamed(place: Place, below: str, near: str) -> Fix:
-    """Return the fix that writes another file, also where its folder is apart."""
+    """Return the fix that writes another file, even with its folder in another text."""
     old, new = PurePosixPath(below), PurePosixPath(near)
     if not place.file.endswith(".py"):
         return write(place, f"/{below}", f"/{near}", hint=f"write {near}")
@@ -138,7 +138,7 @@ def _renamed(place: Place, below: str, near: str) -> Fix:
 
 
 def _is_meant(below: str, near: str, paths: Sequence[str]) -> bool:
-    """Tell whether a file is misspelt, or there is only one that can be meant."""
+    """Return whether a file is misspelt, or has only one possible correction."""
     folder, kind = PurePosixPath(near).parent, PurePosixPath(near).suffix
     beside = [p for p in paths if PurePosixPath(p).parent == folder]
     stem = PurePosixPath(near).name.partition(".")[0]
@@ -168,7 +168,7 @@ def _is_missing(below: str, package: Package) -> bool:
         names = [path.rpartition("/")[2] for path in paths]
         return names.count(below) == 1 and not _installs_beside_manifest(package)
     if (package.folder / below).exists():
-        # Such as a mesh or a test, which are not listed.
+        # Such as a mesh or a test: the package does not list them.
         return False
     if any(path.startswith(f"{folder}/") for path in paths):
         return True
@@ -191,7 +191,7 @@ def _installs_beside_manifest(package: Package) -> bool:
 
 
 def _read_by(launch: LaunchFile, fact: Fact, package: Package) -> str | None:
-    """The one file with parameters for the node that is given a missing one."""
+    """The only file with parameters for the node that gets a missing file."""
     for node in launch.nodes:
         name = node.name or OWN_NAMES.get(node.executable)
         if name and any(given.value == fact.value for given in node.files):
@@ -202,7 +202,7 @@ def _read_by(launch: LaunchFile, fact: Fact, package: Package) -> str | None:
 
 
 def _near(below: str, paths: Sequence[str]) -> str | None:
-    """The file that is probably meant: of the same kind, with the most similar name."""
+    """The probable file: of the same kind, with the most similar name."""
     wanted = PurePosixPath(below)
     if not wanted.suffix:
         return None
@@ -225,7 +225,7 @@ def _has(file: YamlFile, name: str) -> bool:
 
 
 def world_names(around: Surroundings) -> Iterator[Problem]:
-    """Report a robot that is put into a world with another name than the file says."""
+    """Report a robot for a world with another name than the world file has."""
     for launch in around.launches:
         worlds = dict(_worlds(launch, around))
         named = list(spawned_with(launch, "world")) if len(worlds) == 1 else []
@@ -262,7 +262,7 @@ def _worlds(launch: LaunchFile, around: Surroundings) -> Iterator[tuple[str, Pla
 
 
 def misspelt_endings(around: Surroundings) -> Iterator[Problem]:
-    """Report the end of a file's name that no file has, and that is almost another."""
+    """Report the misspelt end of a file name."""
     paths = [path for package in around.packages for path in package.paths]
     endings = {path.rpartition(".")[2] for path in paths}
     for launch in around.launches:
@@ -272,7 +272,7 @@ def misspelt_endings(around: Surroundings) -> Iterator[Problem]:
                 continue
             found = _FILE.fullmatch(node.value)
             if found is None or any(name.endswith(found[0]) for name in named):
-                # A file that is wholly known has another finding.
+                # A file with a fully known path has another finding.
                 continue
             near = [e for e in _ENDINGS & endings if is_one_slip(found[1], e)]
             if found[1] not in endings and len(near) == 1:

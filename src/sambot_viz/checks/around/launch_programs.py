@@ -1,4 +1,4 @@
-"""The programs that launch files start, and the packages that have them."""
+"""Compare the programs that launch files start with the packages that have them."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ class _Program(NamedTuple):
     Attributes:
         package: its package.
         name: the program.
-        place: where that is written.
-        package_place: where the package is.
+        place: the place of that name.
+        package_place: the place of the package's name.
     """
 
     package: str
@@ -38,7 +38,7 @@ class _Program(NamedTuple):
 
 
 def _programs(around: Surroundings) -> Iterator[_Program]:
-    """Give the programs of nodes whose names are known."""
+    """Yield the programs of nodes with known names."""
     for launch in around.launches:
         for call in launch.in_use:
             given, package = call.given("executable"), call.given("package")
@@ -96,7 +96,7 @@ def unknown_programs(around: Surroundings) -> Iterator[Problem]:
 def _of_no_package(
     around: Surroundings, package: str, program: str, place: Place
 ) -> Iterator[Problem]:
-    """Report a package that does not exist, where its program tells which is meant."""
+    """Report a package that does not exist, where the program reveals the right one."""
     programs, root = vocabulary("launch_programs"), around.manifest
     depends = [e.text.strip() for e in root.children] if root is not None else []
     if package and (package in depends or around.files.knows(package)):
@@ -123,7 +123,7 @@ def _of_no_package(
 
 @cache
 def owners() -> dict[str, str]:
-    """Return program → the one well-known package that has it."""
+    """Return program → the only well-known package that has it."""
     found: dict[str, str] = {}
     for package, programs in vocabulary("launch_programs").items():
         for program in programs:
@@ -159,7 +159,7 @@ def _other_program(program: str, near: str | None) -> str:
 
 
 def _own_programs(package: Package) -> dict[str, Place] | None:
-    """The programs that setup.py installs; None when that is not certain."""
+    """The programs that setup.py installs; None when they are not certain."""
     setup = package.setup if package.cmake is None else None
     if setup is None or not setup.installs_only_known or setup.given("scripts"):
         return None

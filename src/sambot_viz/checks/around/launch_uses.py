@@ -1,4 +1,4 @@
-"""Nodes, arguments and values of a launch file that do not reach what they are for."""
+"""Report nodes, arguments and values of a launch file that have no effect."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ _TOPIC, _PUBLISHER = "robot_description", "robot_state_publisher"
 
 
 def unused_actions(around: Surroundings) -> Iterator[Problem]:
-    """Report nodes that are built and are nowhere in the description.
+    """Report nodes that a launch file builds and does not add to the description.
 
-    Where a name is misspelt, that is the finding.
+    A misspelt name has another finding.
     """
     for launch, text in around.launch_texts():
         if undefined_names(launch.tree):
@@ -46,7 +46,7 @@ def unused_actions(around: Surroundings) -> Iterator[Problem]:
         for name, call in _assigned(launch) if described is not None else ():
             if described is None or launch.uses(name):
                 continue
-            # A name in a comment is left out on purpose.
+            # The author left out a name in a comment on purpose.
             if re.search(rf"#.*\b{name}\b", text):
                 continue
             what = call_name(call.func)
@@ -79,7 +79,7 @@ def _assigned(launch: LaunchFile) -> Iterator[tuple[str, ast.Call]]:
 
 
 def bridges_as_parameters(around: Surroundings) -> Iterator[Problem]:
-    """Report a list of topics that is given to a bridge as its parameters."""
+    """Report a list of topics in the parameters of a bridge."""
     lists = {
         file.shown
         for file in around.yaml_files
@@ -104,7 +104,7 @@ def bridges_as_parameters(around: Surroundings) -> Iterator[Problem]:
 
 
 def times_as_text(around: Surroundings) -> Iterator[Problem]:
-    """Report use_sim_time that is given to a node as a text."""
+    """Report use_sim_time of a node with a text as its value."""
     for launch in around.launches:
         for call in launch.certain:
             for item, _ in call.listing("parameters").items:
@@ -128,7 +128,7 @@ def _time_as_text(given: Table, launch: LaunchFile) -> Iterator[Problem]:
 
 
 def spawned_topics(around: Surroundings) -> Iterator[Problem]:
-    """Report a robot that is spawned from a topic on which no model is published."""
+    """Report a spawner that reads the model from a topic without a model."""
     published = {topic: place for topic, place in _descriptions(around) if topic}
     if len(published) < len(dict(_descriptions(around))) or not published:
         return
@@ -137,7 +137,7 @@ def spawned_topics(around: Surroundings) -> Iterator[Problem]:
         for fact in spawned_with(launch, "topic"):
             topic, place = fact.value, fact.place
             name = topic.rpartition("/")[2]
-            # All may be started in a namespace by another launch file.
+            # Another launch file may start all of them in a namespace.
             if f"/{topic.strip('/')}".endswith(tuple(published)):
                 continue
             if name == _TOPIC:
@@ -158,7 +158,7 @@ def spawned_topics(around: Surroundings) -> Iterator[Problem]:
 
 
 def _descriptions(around: Surroundings) -> Iterator[tuple[str | None, Place]]:
-    """The topics on which the model is published; None for one that is not certain."""
+    """The topics that carry the model; None for an uncertain one."""
     for launch in around.launches:
         pushed = any(launch.called("PushRosNamespace", "PushROSNamespace"))
         for call in launch.called():

@@ -1,4 +1,4 @@
-"""Words of launch files that launch does not know: arguments, elements, attributes."""
+"""Report unknown words in launch files: arguments, elements and attributes."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ _NEW = frozenset({"exec", "let", "$var", "$find-pkg-share", "composable_node"})
 
 
 def unknown_keywords(around: Surroundings) -> Iterator[Problem]:
-    """Report arguments that an action does not have, where another one is meant."""
+    """Report misspelt arguments of an action."""
     for launch in around.launches:
         yield from misspelt(_arguments(launch), _ARGUMENT)
 
@@ -67,7 +67,7 @@ def _replaced(place: Place, wrong: str, right: str) -> Fix:
 
 
 def unknown_commands(around: Surroundings) -> Iterator[Problem]:
-    """Report commands that ros2 does not have, where another one is meant."""
+    """Report misspelt commands of ros2."""
     for launch in around.launches:
         for call in launch.called("ExecuteProcess", "ExecuteLocal"):
             owner = ""

@@ -1,4 +1,4 @@
-"""Parameters that launch files themselves give to well-known nodes."""
+"""Check parameters that launch files themselves give to well-known nodes."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class _GivenValue(NamedTuple):
 
     Attributes:
         name: its name.
-        kind: the type of its value; empty where it is not known.
+        kind: the type of its value; empty for an unknown type.
         text: the value.
         place: of the value.
         name_place: of the name.
@@ -62,7 +62,7 @@ def launched_parameters(around: Surroundings) -> Iterator[Problem]:
 
 
 def _known(package: str, program: str, around: Surroundings) -> ParameterBlock | None:
-    """Return the parameters of a program, of a well-known package or of one here."""
+    """Return the parameters of a program in a well-known package or one of these."""
     known = known_nodes().nodes.get((package, program))
     if known is not None:
         return known_parameters().nodes.get(known.name)

@@ -1,4 +1,4 @@
-"""package.xml: what stops colcon from reading it, and the build type."""
+"""Check package.xml: what stops colcon from reading it, and the build type."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _BUILD_FILES = {"ament_cmake": "CMakeLists.txt", "ament_python": "setup.py"}
 
 
 def unreadable_manifest(around: Surroundings) -> Iterator[Problem]:
-    """Report a package.xml that is empty, is no XML or names no package."""
+    """Report a package.xml that is empty, is not XML or does not name a package."""
     text, shown = around.files.text(_FILE), around.files.shown(_FILE)
     if text is None or len(text) > limits.BUILD_FILE.value:
         return
@@ -50,7 +50,7 @@ def unreadable_manifest(around: Surroundings) -> Iterator[Problem]:
 
 
 def named_as_its_folder(around: Surroundings) -> bool:
-    """True when package.xml says no name that colcon takes."""
+    """True when package.xml has no name that colcon accepts."""
     root = around.manifest
     name = root.find("name") if root is not None else None
     return name is None or not _NAME.fullmatch(name.text.strip())
@@ -88,14 +88,14 @@ def _proposed(around: Surroundings, said: str) -> str:
 
 
 def incomplete_manifest(around: Surroundings) -> Iterator[Problem]:
-    """Report the one element of package.xml that is missing."""
+    """Report the only missing element of package.xml."""
     root = around.manifest
     if root is None or root.tag != "package":
         return
     missing = [tag for tag in _REQUIRED if root.find(tag) is None]
     tags = [child.tag for child in root.children if child.tag not in _REQUIRED]
     if len(missing) != 1 or missing == ["name"] or nearest(missing[0], tags, 0.7):
-        # The one that is misspelt is the finding of another rule.
+        # Another rule reports a misspelt one.
         return
     (tag,) = missing
     yield Problem.at(
@@ -108,7 +108,7 @@ def incomplete_manifest(around: Surroundings) -> Iterator[Problem]:
 
 
 def _without_build_type(root: Element, around: Surroundings) -> Iterator[Problem]:
-    """Report a package that ament is to build, and that colcon gives to catkin."""
+    """Report a package for ament that colcon builds with catkin."""
     uses = {e.text.strip() for e in root.children if e.tag.endswith("depend")}
     cmake = around.files.text("CMakeLists.txt")
     needs_cmake = around.setup is None and "ament_cmake" in uses
@@ -127,7 +127,7 @@ def _without_build_type(root: Element, around: Surroundings) -> Iterator[Problem
     hint = f"add {added} inside it"
     yield Problem.at(
         here,
-        # A CMakeLists.txt catkin may get through, a setup.py it never does.
+        # catkin may build a CMakeLists.txt, but never a setup.py.
         "error" if cmake is None else "warning",
         "package-build-type",
         "package.xml has no <build_type>, so that colcon builds the package with "
@@ -139,7 +139,7 @@ def _without_build_type(root: Element, around: Surroundings) -> Iterator[Problem
 
 
 def build_types(around: Surroundings) -> Iterator[Problem]:
-    """Report a build type whose file is not there, where that of the other is."""
+    """Report a build type without its file, beside the file of the other type."""
     root = around.manifest
     kinds = [e for e in root.iter() if e.tag == "build_type"] if root else []
     if root is not None and not kinds:

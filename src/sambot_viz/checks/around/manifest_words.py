@@ -1,4 +1,4 @@
-"""Words of package.xml that colcon does not know."""
+"""Report words of package.xml that colcon does not know."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _STARTED = re.compile(r"v?(\d+)(?:\.(\d+))?")
 
 
 def unknown_elements(around: Surroundings) -> Iterator[Problem]:
-    """Report elements of package.xml that its format does not have."""
+    """Report elements of package.xml that are not in its format."""
     root = around.manifest
     if root is None or root.tag != "package":
         return

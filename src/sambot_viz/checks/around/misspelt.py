@@ -1,4 +1,4 @@
-"""Names that are misspelt, and not others: word by word."""
+"""Tell misspelt names from different ones, word by word."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _WORD_LIKENESS = 0.6
 
 
 def is_misspelt(name: str, right: str) -> bool:
-    """Return whether each word of a name is like that of the right one.
+    """Return whether each word of a name is similar to that of the right one.
 
     detect_marker is another program than detect_sign, whatever the letters.
     """

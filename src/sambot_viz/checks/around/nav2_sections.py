@@ -1,4 +1,4 @@
-"""Sections of Nav2's nodes in parameter files, and their clocks."""
+"""Check sections of Nav2's nodes in parameter files, and their clocks."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _LONG = 6
 
 
 def unread_sections(around: Surroundings) -> Iterator[Problem]:
-    """Report names of nodes that Nav2 does not have, so that nothing is read."""
+    """Report unknown names of nodes, whose parameters Nav2 does not read."""
     for file in around.yaml_files:
         names = {node.rpartition("/")[2] for node in file.nodes}
         known = names & {*_NODES, *_COSTMAPS}
@@ -68,10 +68,10 @@ def unread_sections(around: Surroundings) -> Iterator[Problem]:
 
 
 def misspelt_nodes(around: Surroundings) -> Iterator[Problem]:
-    """Report names of nodes that are almost a well-known one; those of Nav2 above."""
+    """Report misspelt names of well-known nodes outside Nav2."""
     running = {node.name for node in around.running.nodes}
     names = {*known_parameters().nodes, *known_nodes().names} - _NODES
-    # Of robot1 and robot2 each may be another one.
+    # robot1 and robot2 may be two robots.
     known = [n for n in names if len(n) >= _LONG and n.replace("_", "").isalpha()]
     for file in around.yaml_files:
         for node, place in file.nodes.items():
@@ -94,7 +94,7 @@ def misspelt_nodes(around: Surroundings) -> Iterator[Problem]:
 
 
 def _inner_name(node: str) -> str | None:
-    """Return the costmap that is meant by two names of which one is not its name."""
+    """Return the costmap that two names mean, one of which is wrong."""
     outer, slash, inner = node.rpartition("/")
     outer = outer.rpartition("/")[2]
     if not slash or outer == inner:

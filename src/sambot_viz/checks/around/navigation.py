@@ -1,4 +1,4 @@
-"""The nodes of robot_localization and Nav2 that a package has parameters for."""
+"""Find the nodes of robot_localization and Nav2 with parameters in a package."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class StateFilter(NamedTuple):
     file: str
 
     def frame(self, name: str, default: str) -> str:
-        """Return a frame, or what robot_localization takes without it."""
+        """Return a frame, or the default of robot_localization for it."""
         parameter = self.given.get(name)
         return bare_frame(parameter.fact.value) if parameter else default
 
@@ -45,7 +45,7 @@ class StateFilter(NamedTuple):
 
     @property
     def world_frame(self) -> str:
-        """The frame that it estimates the pose in."""
+        """The frame in which it estimates the pose."""
         return self.frame("world_frame", self.odom_frame)
 
     @property
@@ -62,14 +62,14 @@ class StateFilter(NamedTuple):
         return not told_not and self.world_frame != self.map_frame
 
     def inputs(self, kind: str) -> Iterator[Parameter]:
-        """Give the topics that it reads: kind is "odom", "imu", "pose" or "twist"."""
+        """Yield the topics that it reads: kind is "odom", "imu", "pose" or "twist"."""
         for name, parameter in self.given.items():
             match = _INPUT.fullmatch(name)
             if match is not None and match[1] == kind:
                 yield parameter
 
     def fuses(self, parameter: Parameter, values: range) -> bool:
-        """Return whether one of these values of an input is used, by their numbers."""
+        """Return whether the filter uses one of these values of an input, by number."""
         config = self.given.get(f"{parameter.name}_config")
         used = config.values if config else ()
         return any(used[i].lower() == "true" for i in values if i < len(used))
@@ -93,7 +93,7 @@ def filters(around: Surroundings) -> list[StateFilter]:
 
 
 def bare_frame(name: str) -> str:
-    """Return a frame without the slash that ROS 1 allowed before it."""
+    """Return a frame without the leading slash that ROS 1 allowed."""
     return name.strip().lstrip("/")
 
 

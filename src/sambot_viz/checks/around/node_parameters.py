@@ -1,4 +1,4 @@
-"""Parameters in files that the node they are for does not get, or does not read."""
+"""Report parameters in files that their node does not get, or does not read."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from sambot_viz.errors import Place, Problem, nearest
 
 
 def unread_parameters(around: Surroundings) -> Iterator[Problem]:
-    """Report parameter files in which none of the nodes that get them is named."""
+    """Report parameter files that name none of the nodes that get them."""
     files = {file.shown: file for file in around.yaml_files}
     given: dict[tuple[str, Place], list[tuple[RunningNode, GivenFile]]] = {}
     for node in around.running.started:
@@ -28,11 +28,11 @@ def unread_parameters(around: Surroundings) -> Iterator[Problem]:
         file, node = files.get(shown), users[0][0]
         if file is None or not file.nodes or any(each.is_read for _, each in users):
             continue
-        # What another launch file chooses is its own question.
+        # Another rule checks the choice of another launch file.
         is_named = posixpath.basename(shown) in _text_of(around, place.file)
         empty = {key.value for key, _ in pairs(file.root)} - {*file.keys}
         if node.name in empty or "" in file.nodes:
-            # It is named, or could be: what is below its name is another question.
+            # The file names it, or could: other rules check the values below its name.
             continue
         alone = len({node.path for node, _ in users}) == 1
         if alone and is_named and node.starts == "yes" and _is_called(node):
@@ -49,7 +49,7 @@ def _text_of(around: Surroundings, shown: str) -> str:
 
 
 def _is_called(node: RunningNode) -> bool:
-    """Return whether the name of a node is known, and its parameters are its own."""
+    """Return whether a node has a known name, and parameters that only it uses."""
     known = known_nodes().nodes.get((node.package, node.executable))
     is_container = node.executable.startswith("component_container")
     named = known is not None or node.name not in ("", node.executable)
@@ -62,7 +62,7 @@ def _unread(node: RunningNode, given: Place, file: YamlFile) -> Problem:
     key = near or next(iter(file.nodes))
     bare, written = key.rpartition("/")[2], file.keys.get(key, file.nodes[key])
     name = node.path.removeprefix("/")
-    # A launch file of another package starts it, under this name.
+    # A launch file of another package starts it under this name.
     if own or node.place == given:
         return Problem.at(
             written,
@@ -116,7 +116,7 @@ def parameters_left_out(around: Surroundings) -> Iterator[Problem]:
 
 
 def _gives(node: RunningNode, file: YamlFile) -> bool:
-    """Return whether a launch file itself gives a node what a file has for it."""
+    """Return whether a launch file itself sets the parameters that a file has."""
     keys = (key for key in file.nodes if key.rpartition("/")[2] == node.name)
     names = {name for key in keys for name in file.of(key)} - {"use_sim_time"}
     given = {each.name for each in node.parameters if not each.given_at}

@@ -1,4 +1,4 @@
-"""The parts of a node in its parameters: itself, its plugins, layers and sensors."""
+"""Find the parts of a node in its parameters: plugins, layers and sensors."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ class NodePart:
     Attributes:
         node: the name of the node, without its namespace.
         section: the keys below the node's, joined with dots; empty for the node.
-        block: what is known here; None for a plugin that is not known.
+        block: the known parameters here; None for an unknown plugin.
         given: the parameters here.
-        sections: the names of the parts below → what is in them.
+        sections: names of the parts below → their contents.
         base: the base class of the plugins in the list that names the part.
         is_known: the node has no other parameters.
     """
@@ -52,14 +52,14 @@ class NodePart:
         return self.section or self.node
 
     def known(self) -> Iterator[tuple[Parameter, KnownParameter]]:
-        """Give the parameters that are known, with what is known."""
+        """Yield the known parameters, each with its row of the table."""
         for name, parameter in self.given.items():
             known = self.block.find(name) if self.block is not None else None
             if known is not None:
                 yield parameter, known
 
     def lists(self) -> Iterator[tuple[Parameter, KnownParameter]]:
-        """Give the lists of parts."""
+        """Yield the lists of parts."""
         return (each for each in self.known() if each[1].kind in LISTS)
 
 
@@ -104,7 +104,7 @@ def parts_by_node(around: Surroundings) -> tuple[tuple[NodePart, ...], ...]:
 
 
 def _parts(part: NodePart, given: Given) -> Iterator[NodePart]:
-    """Give a part with its parameters, and all that are in it."""
+    """Yield a part with its parameters, and all parts inside."""
     block = part.block and _with_plugins(part.block, given)
     own: dict[str, Parameter] = {}
     sections: dict[str, dict[str, Parameter]] = {}
@@ -125,7 +125,7 @@ def _parts(part: NodePart, given: Given) -> Iterator[NodePart]:
 
 
 def _with_plugins(block: ParameterBlock, given: Given) -> ParameterBlock:
-    """Add the parameters of a plugin that has no part of its own."""
+    """Add the parameters of a plugin without a separate part."""
     for name, parameter in given.items():
         known = block.parameters.get(name)
         kind = known_parameters().classes.get(parameter.fact.value)
@@ -137,7 +137,7 @@ def _with_plugins(block: ParameterBlock, given: Given) -> ParameterBlock:
 def _inside(
     part: NodePart, head: str, inner: Given
 ) -> tuple[str, ParameterBlock | None]:
-    """Return the base class and what is known of a part; None for another plugin."""
+    """Return the base class and the known parameters of a part; None if unknown."""
     table, block = known_parameters(), part.block
     lists = (known for one, known in part.lists() if head in names_in(one))
     named = next(lists, None)

@@ -1,4 +1,4 @@
-"""The transform of the base in odometry, which one node has to publish."""
+"""Check the transform from odometry to the base, which one node must publish."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ _FRAMES = {"map_frame": "map", "odom_frame": "odom", "base_link_frame": "base_li
 
 
 def unpublished_odometry(around: Surroundings) -> Iterator[Problem]:
-    """Report a frame of odometry that nodes need and nobody publishes.
+    """Report an odometry frame that nodes need and no node publishes.
 
-    It is said at the parameter of a filter that is told not to publish what only it
-    could, else where the first node needs it.
+    The finding is at the parameter that stops a filter from publishing it, where only
+    that filter could; else at the first node that needs it.
     """
     if around.namespaced or not around.simulates_only_known or _others_publish(around):
         return
@@ -57,7 +57,7 @@ def unpublished_odometry(around: Surroundings) -> Iterator[Problem]:
 def _without_filter(around: Surroundings) -> Iterator[Problem]:
     running = [node for node in around.running.started if node.starts == "yes"]
     published = {one.parent for node in running for one in node.transforms}
-    # A map that hangs at the frame of odometry is of no use without it.
+    # A map below the frame of odometry is useless without it.
     known = {*around.links, *(published - {"map"})}
     for node in running:
         for need in node.needs:
@@ -85,7 +85,7 @@ def _reason(one: StateFilter) -> tuple[Parameter, Fix] | None:
 
 
 def _user(around: Surroundings, odom: str) -> Parameter | None:
-    """The local costmap that is in the frame of odometry."""
+    """The local costmap in the frame of odometry."""
     for parameter in around.parameters:
         if parameter.name == "global_frame" and "local_costmap" in parameter.node:
             if bare_frame(parameter.fact.value) == odom:
@@ -127,14 +127,14 @@ def frames_from_themselves(around: Surroundings) -> Iterator[Problem]:
 
 
 def shared_frames(around: Surroundings) -> Iterator[Problem]:
-    """Report a filter that has one frame for two of its three."""
+    """Report a filter with one name for two of its three frames."""
     for one in filters(around):
         for (first, usual), (second, other) in combinations(_FRAMES.items(), 2):
             frame = one.frame(first, usual)
             if is_open(frame) or frame != one.frame(second, other):
                 continue
             names = [n for n in (second, first) if n in one.given]
-            # The one that is not called as usual is the one that was changed.
+            # The frame without its usual name is the changed one.
             names.sort(key=lambda name: one.frame(name, "") == _FRAMES[name])
             wrong = one.given[names[0]]
             yield Problem.at(

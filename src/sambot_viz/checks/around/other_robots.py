@@ -1,4 +1,4 @@
-"""Parameter files of a package that belong to another robot in it."""
+"""Recognise parameter files that belong to another robot of a package."""
 
 from __future__ import annotations
 
@@ -47,9 +47,9 @@ def of_this_robot(
 ) -> Iterator[Problem]:
     """Leave out findings in parameter files that may be for another robot.
 
-    A file is, where a folder in its path or its name is called as another model of
-    the package; and it may be, where the parameters of another file fit this robot.
-    Where neither the one nor the other is so, sizes that differ are one clue alone.
+    A file belongs to another robot when its name or a folder in its path is the name of
+    another model of the package. It may do so when the parameters of another file fit
+    this robot. In all other cases, different sizes are only one clue.
     """
     found = list(problems)
     others = _other_robots(around) if any(p.code in _OF_ROBOT for p in found) else ()
@@ -96,7 +96,7 @@ def _own_models(around: Surroundings) -> list[_Model]:
 
 
 def _other_robots(around: Surroundings) -> list[_Model]:
-    """Return the models of the packages that are neither in this one nor this one."""
+    """Return the models of the packages except this one and its parts."""
     own = set(_own_models(around))
     texts = {
         (package, path): package.text(path) or ""

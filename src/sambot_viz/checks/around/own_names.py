@@ -1,4 +1,4 @@
-"""The name of a package, in its setup.py and in its launch files."""
+"""Check the name of a package in its setup.py and in its launch files."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def setup_name(around: Surroundings) -> Iterator[Problem]:
 
 
 def _is_right(name: str, around: Surroundings) -> bool:
-    """Tell whether the files of a Python package are called after it."""
+    """Return whether the files of a Python package have its name."""
     folder = around.files.folder
     return (folder / f"resource/{name}").is_file() and bool(name)
 
@@ -97,14 +97,14 @@ def _text(node: ast.expr | None) -> str | None:
 
 
 def unknown_packages(around: Surroundings) -> Iterator[Problem]:
-    """Report a name like that of the package, in a file without the right name."""
+    """Report a name similar to the package's, in a file without the right name."""
     for package in around.packages:
         others = around.names | _dependencies(package.manifest)
         if package.cmake is not None and package.cmake.project is not None:
-            # Where they ask for the name there, that of package.xml is wrong.
+            # Where launch files use the name there, the one in package.xml is wrong.
             others |= {package.cmake.project.text}
         for asked in _asked(package):
-            # Beside the right name, a similar one may be that of another package.
+            # Beside the right name, a similar one may belong to another package.
             has_right = any(text == package.name for text, _ in asked)
             is_meant = is_one_slip if has_right else _alike
             for text, place in asked:
@@ -125,7 +125,7 @@ def unknown_packages(around: Surroundings) -> Iterator[Problem]:
 
 
 def misspelt_shares(around: Surroundings) -> Iterator[Problem]:
-    """Report a folder of a package that is almost called as a well-known one."""
+    """Report a folder of a package that misspells a well-known one."""
     known = {*vocabulary("launch_programs"), *known_nodes().packages}
     for package in around.packages:
         others = around.names | _dependencies(package.manifest) | known
@@ -146,7 +146,7 @@ def misspelt_shares(around: Surroundings) -> Iterator[Problem]:
 
 
 def _asked(package: Package) -> Iterator[list[tuple[str, Place]]]:
-    """Give the packages whose share folders each launch file asks for."""
+    """Yield the packages whose share folders each launch file asks for."""
     for launch in package.launches:
         first = (c.given("package", 0) for c in launch.called(*_SHARE_CALLS))
         yield [
@@ -164,7 +164,7 @@ def _asked(package: Package) -> Iterator[list[tuple[str, Place]]]:
 
 
 def _dependencies(manifest: Element | None) -> set[str]:
-    """The packages that package.xml says are needed."""
+    """The packages that package.xml lists as dependencies."""
     tags = (e for e in manifest.children if "depend" in e.tag) if manifest else ()
     return {element.text.strip() for element in tags}
 
@@ -173,7 +173,7 @@ def _alike(name: str, package: str) -> bool:
     """Return whether one package name looks like a misspelling of the other."""
     words, others = (re.split(r"[_\-]", text) for text in (name, package))
     if words[-1] in _PARTS and words[-1] != others[-1]:
-        # Two packages of one robot; the other one may not be here.
+        # Two packages of one robot; the other one may be elsewhere.
         return False
     ratio = difflib.SequenceMatcher(None, name, package).ratio()
     return ratio > 0.8 or (words[0] == others[0] and ratio > 0.5)

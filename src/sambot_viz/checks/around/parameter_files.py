@@ -1,4 +1,4 @@
-"""What ROS cannot read in parameter files, whatever the node: values, lists, names."""
+"""Report what ROS cannot read in the parameters of any node."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from sambot_viz.errors import Fix, Problem
 
 
 def unreadable_parameters(around: Surroundings) -> Iterator[Problem]:
-    """Report values that ROS cannot read, and parameters that are given twice."""
+    """Report values that ROS cannot read, and duplicate parameters."""
     parts = (part for each in parts_by_node(around) for part in each)
     known = {id(parameter) for part in parts for parameter, _ in part.known()}
     for file in around.yaml_files:

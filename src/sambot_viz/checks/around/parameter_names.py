@@ -1,4 +1,4 @@
-"""Names among the parameters of well-known nodes: of parameters, plugins and parts."""
+"""Check names of parameters, plugins and parts of well-known nodes."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _DIGIT = re.compile(r"\d")
 
 
 def unknown_parameters(around: Surroundings) -> Iterator[Problem]:
-    """Report names that a node does not read: misspelt, old, or of another part."""
+    """Report names that a node does not read: misspelt, old or of another part."""
     newest = _newest(around)
     for parts in parts_by_node(around):
         for part in parts:
@@ -40,7 +40,7 @@ def unknown_parameters(around: Surroundings) -> Iterator[Problem]:
 
 
 def _unknown_groups(part: NodePart) -> Iterator[Problem]:
-    """Report what is almost the first part of names with dots."""
+    """Report misspelt first parts of names with dots."""
     block = part.block if part.is_known and part.block is not None else None
     free = (
         block.groups - {name.partition(".")[0] for name in part.given} if block else ()
@@ -77,7 +77,7 @@ def _newest(around: Surroundings) -> Mapping[str, int]:
 def _old(
     parameter: Parameter, known: KnownParameter, part: NodePart, newest: int
 ) -> Iterator[Problem]:
-    """Report a name that no distribution has, or only those before the file's."""
+    """Report a name that no distribution has, or only older ones than the file's."""
     age, block = known.age, part.block
     certain = not age.ends or newest > age.last
     if age.successor in part.given or block is None or not (certain or age.is_old):
@@ -111,7 +111,7 @@ def _renamed(parameter: Parameter, wrong: str, right: str) -> Fix:
 def _unknown(
     name: str, parameter: Parameter, part: NodePart, parts: Sequence[NodePart]
 ) -> Iterator[Problem]:
-    """Report a name that is like another one, or that another part has."""
+    """Report a name that misspells another one, or that belongs to another part."""
     right = part.block.meant(name, part.given) if part.block is not None else None
     if right is not None:
         wrong, right = name.rpartition(".")[2], right.rpartition(".")[2]
@@ -159,7 +159,7 @@ def _moved(parameter: Parameter, to: NodePart) -> Fix:
 
 
 def unknown_plugins(around: Surroundings) -> Iterator[Problem]:
-    """Report plugins that are almost a class, or that fit no other of the file."""
+    """Report misspelt plugins, and those that do not fit the others of the file."""
     newest = _newest(around)
     for part in (part for parts in parts_by_node(around) for part in parts):
         named = [(p, k.base) for p, k in part.known() if k.base and k.kind == "string"]
@@ -196,7 +196,7 @@ def _no_plugin(
 def _old_plugin(
     parameter: Parameter, old: PluginClass, right: str, part: NodePart, newest: int
 ) -> Problem:
-    """Report a plugin that newer distributions call otherwise."""
+    """Report a plugin with another name in newer distributions."""
     if certain := newest > old.age.last:
         follows = f"this file has plugins that came later: {part.node} stops"
     else:
@@ -211,11 +211,11 @@ def _old_plugin(
 
 
 def _right_class(said: str, base: str, newest: int) -> str | None:
-    """Return the class that is meant; None for a right one and for one like no other.
+    """Return the class that a text misspells; None for a right or dissimilar one.
 
     Args:
         said: the class as the file has it.
-        base: its base class; empty where that is not known.
+        base: its base class; empty for an unknown one.
         newest: the first distribution that has all plugins of the file.
     """
     known = known_parameters().classes
@@ -234,7 +234,7 @@ def _right_class(said: str, base: str, newest: int) -> str | None:
 
 
 def _right_name(name: str, known: KnownParameter, part: NodePart) -> str | None:
-    """Return the plugin that is meant by a name without its package."""
+    """Return the plugin for a name without its package."""
     head, _, tail = known.pattern.partition("*")
     classes = [
         k.name for k in known_parameters().classes.values() if k.base == known.base
@@ -248,7 +248,7 @@ def _right_name(name: str, known: KnownParameter, part: NodePart) -> str | None:
 
 
 def unknown_sections(around: Surroundings) -> Iterator[Problem]:
-    """Report layers, plugins and sensors that are listed under another name."""
+    """Report layers, plugins and sensors with another name in their list."""
     for part in (part for parts in parts_by_node(around) for part in parts):
         named = {name for one, _ in part.lists() for name in names_in(one)}
         for one, known in part.lists():
@@ -286,7 +286,7 @@ def _other_section(
 
 
 def _split_section(name: str, named: set[str], part: NodePart) -> Iterator[Problem]:
-    """Report lines that are almost below a name in a list, beside those that are."""
+    """Report lines whose indentation misses the section of a listed name."""
     for other, inner in part.sections.items():
         is_slip = other not in named and is_one_slip(other, name)
         if not is_slip or name not in part.sections or _DIGIT.search(name + other):

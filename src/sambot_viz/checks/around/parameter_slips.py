@@ -1,4 +1,4 @@
-"""Slips in parameter files that need no knowledge of the node."""
+"""Report slips in parameter files without knowledge of the node."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _IMAGES = (".pgm", ".png", ".bmp", ".jpg")
 
 
 def parameters_of_nobody(around: Surroundings) -> Iterator[Problem]:
-    """Report parameters above which the name of a node is missing."""
+    """Report parameters without the name of a node above them."""
     for file in around.yaml_files:
         for above, node in each_mapping(file.root, left_out=(_KEY,)):
             keys = (key for key, _ in pairs(node) if key.value == _KEY)
@@ -70,7 +70,7 @@ def _is_empty(node: yaml.Node) -> bool:
 
 
 def _beside(key: yaml.ScalarNode, below: yaml.ScalarNode, shown: str) -> Problem:
-    """Report what is beside a key that has nothing below it."""
+    """Report keys beside an empty key that should be above them."""
     place = place_of(below, shown)
     return Problem.at(
         place,
@@ -84,7 +84,7 @@ def _beside(key: yaml.ScalarNode, below: yaml.ScalarNode, shown: str) -> Problem
 
 
 def texts_for_values(around: Surroundings) -> Iterator[Problem]:
-    """Report texts that are almost true or false, or a number with a comma."""
+    """Report misspelt true and false, and numbers with a comma."""
     parts = (part for each in parts_by_node(around) for part in each)
     known = {id(parameter) for part in parts for parameter, _ in part.known()}
     for parameter in around.parameters:
@@ -108,7 +108,7 @@ def texts_for_values(around: Surroundings) -> Iterator[Problem]:
 
 
 def maps_that_do_not_load(around: Surroundings) -> Iterator[Problem]:
-    """Report maps without an image that is there, or without a value they need."""
+    """Report maps without an existing image, or without a required value."""
     for package in around.packages:
         for path in package.ending(".yaml", ".yml"):
             file = _map_file(package, path)
@@ -126,7 +126,7 @@ def maps_that_do_not_load(around: Surroundings) -> Iterator[Problem]:
             beside = [
                 p for p in package.ending(*_IMAGES) if p.rpartition("/")[0] == below
             ]
-            # Without any image, all of them may come from elsewhere.
+            # Without any image, all of them may come from another folder.
             if image is None or said[:1] == "/" or not beside:
                 continue
             place = place_of(image, file.shown)
@@ -183,7 +183,7 @@ def _no_value(file: YamlFile, name: str, given: list[str]) -> Problem:
 
 
 def incomplete_nodes(around: Surroundings) -> Iterator[Problem]:
-    """Report nodes, and entries of theirs, without a parameter that they need."""
+    """Report nodes, and their entries, without a required parameter."""
     given = {(p.node.rpartition("/")[2], p.name) for p in around.parameters}
     for part, *_ in parts_by_node(around):
         block = part.block or ParameterBlock()
@@ -207,7 +207,7 @@ def incomplete_nodes(around: Surroundings) -> Iterator[Problem]:
 
 
 def _entries(name: str, part: NodePart) -> dict[str, Parameter]:
-    """Return what a name with * stands for here, with the first line of each."""
+    """Return the names that a pattern with * matches here, each with its first line."""
     found: dict[str, Parameter] = {}
     before, star, after = name.partition("*")
     for other, parameter in part.given.items():

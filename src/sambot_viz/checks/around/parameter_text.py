@@ -1,4 +1,4 @@
-"""Values in parameter files as ROS takes them: their types, and other types of them."""
+"""Read values in parameter files as ROS does, and convert them to other types."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ _WRITTEN: Mapping[Type, str] = {
 
 
 def is_open(node: yaml.Node) -> bool:
-    """Return whether a launch file puts another value in place of one."""
+    """Return whether a launch file replaces a value."""
     return not isinstance(node, yaml.ScalarNode) or bool(OPEN.search(node.value))
 
 
@@ -68,7 +68,7 @@ def fixed(item: yaml.Node, kind: str, file: str) -> Fix:
 
 
 def converted(text: str, kind: str) -> str | None:
-    """Return the same value as another type, without a comma or a unit after it."""
+    """Return the value as another type, without a trailing comma or unit."""
     bare = text.rstrip(",; ")
     if kind == "string":
         is_other = _TRUTH.fullmatch(text) or number_of(text) is not None
@@ -97,7 +97,7 @@ def as_written(node: yaml.Node) -> str:
 
 
 def instead(node: yaml.Node, file: str, right: str, hint: str) -> Fix:
-    """Return the fix that writes another value; a list is left to the user."""
+    """Return the fix that writes another value; no fix for a list."""
     if not isinstance(node, yaml.ScalarNode):
         return Fix(hint)
     end: Any = node.end_mark
@@ -106,7 +106,7 @@ def instead(node: yaml.Node, file: str, right: str, hint: str) -> Fix:
 
 
 def type_of(node: yaml.Node) -> Type:
-    """Return the type that ROS takes a value for."""
+    """Return the type that ROS gives a value."""
     if not isinstance(node, yaml.ScalarNode):
         return "list"
     text: str = node.value

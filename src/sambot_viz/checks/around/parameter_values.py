@@ -1,4 +1,4 @@
-"""Values of the parameters of well-known nodes: types, words, ranges and frames."""
+"""Check parameter values of well-known nodes: types, words, ranges and frames."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _KINDS = {
 
 
 def wrong_values(around: Surroundings) -> Iterator[Problem]:
-    """Report values of another type, out of their range or no word that is known."""
+    """Report values of another type, out of range, or with an unknown word."""
     for part in (part for parts in parts_by_node(around) for part in parts):
         exchanged = _exchanged(part)
         for parameter, known in part.known():
@@ -57,7 +57,7 @@ def wrong_values(around: Surroundings) -> Iterator[Problem]:
 
 
 def _exchanged(part: NodePart) -> dict[Parameter, list[Problem]]:
-    """Return two lines with the values of each other, with what is reported of them."""
+    """Return each two lines with exchanged values, with their findings."""
     found: dict[Parameter, list[Problem]] = {}
     for (one, first), (two, second) in pairwise(part.known()):
         kinds, types = (first.kind, second.kind), (type_of(one.written),)
@@ -87,7 +87,7 @@ def _exchanged(part: NodePart) -> dict[Parameter, list[Problem]]:
 def _type(
     parameter: Parameter, kind: str, node: str, around: Surroundings
 ) -> Problem | None:
-    """Report a value of another type than the node declares the parameter with."""
+    """Report a value of another type than the node declares."""
     written, file = parameter.written, parameter.place.file
     is_list, text = type_of(written) == "list", parameter.fact.value.strip()
     if kind not in WANTED or OPEN.search(text) or REPLACED.fullmatch(text):
@@ -174,7 +174,7 @@ def _count(parameter: Parameter, known: KnownParameter, node: str) -> Problem | 
 
 
 def _odd_line(parameter: Parameter, missing: int) -> Place | None:
-    """Return the one line of a list that alone has fewer or more items by so many."""
+    """Return the only line of a list that has the missing or surplus items."""
     items: list[yaml.Node] = (
         parameter.written.value
         if isinstance(parameter.written, yaml.SequenceNode)
@@ -238,7 +238,7 @@ def _value(
 def _range(
     parameter: Parameter, known: KnownParameter, value: float, part: NodePart
 ) -> Iterator[Problem]:
-    """Report a number that is out of its range, or above the one it must not pass."""
+    """Report a number out of its range, or above the parameter that limits it."""
     least = number(known.low)
     low = f"more than {least}" if known.above else f"at least {least}"
     high, other = f"at most {number(known.high)}", part.given.get(known.at_most)
@@ -276,7 +276,7 @@ def _number(parameter: Parameter, otherwise: float) -> float:
 
 
 def _in_range(parameter: Parameter, known: KnownParameter, value: float) -> Fix | None:
-    """Return the frequency that a period means, if it is one."""
+    """Return the frequency for a period, if the number is one."""
     if "frequency" not in parameter.name or not 0 < value < known.low:
         return None
     right, said = f"{float(f'{1 / value:.2g}'):.1f}", parameter.fact.value

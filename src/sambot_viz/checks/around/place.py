@@ -1,4 +1,4 @@
-"""Places in files: how a message names a second one, and fixes at one."""
+"""Name places in files for messages, and make fixes at them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from sambot_viz.edits import source_of, together, write_between
 from sambot_viz.errors import Fix, Place
 
-# A model that is in no package needs no YAML.
+# A model without a package needs no YAML.
 if TYPE_CHECKING:
     from sambot_viz.checks.around.files.fault import Fault
 
@@ -19,7 +19,7 @@ def where(other: Place | None, here: Place | str | None) -> str:
 
     Args:
         other: the place to name; None names nothing.
-        here: where the finding itself is shown; its file is not repeated.
+        here: the place of the finding; the name leaves out the same file.
     """
     if other is None:
         return "in the model"
@@ -29,10 +29,10 @@ def where(other: Place | None, here: Place | str | None) -> str:
 
 
 def line_fix(fault: Fault, place: Place, text: str) -> Fix:
-    """Return the fix that writes the better line of a fault; its comment stays.
+    """Return the fix that writes the corrected line of a fault; its comment stays.
 
     Args:
-        fault: what is wrong in the file.
+        fault: the fault in the file.
         place: its line.
         text: of the file.
     """
@@ -59,9 +59,9 @@ def rewritten(node: ast.expr | ast.stmt, file: str, right: str, hint: str = "") 
 
     Args:
         node: the expression.
-        file: it is in.
+        file: the file of the expression.
         right: what to write.
-        hint: the hint, where it is not "write" and that text.
+        hint: the hint; by default "write" and that text.
     """
     begin = Place(file, node.lineno, node.col_offset + 1)
     line, column = node.end_lineno or node.lineno, node.end_col_offset or 0
@@ -73,9 +73,9 @@ def moved_right(place: Place, blanks: int, *, whole: bool) -> Fix:
     """Return the fix that moves lines of YAML to the right.
 
     Args:
-        place: where the first of them begins, with its column.
-        blanks: by how many.
-        whole: move what follows at the same level too, not only what is below it.
+        place: the beginning of the first of them, with its column.
+        blanks: the number of columns.
+        whole: also move the following lines at the same level, not only those below.
     """
     hint = f"write {blanks} blanks more before this line and those that belong to it"
     source, column = source_of(place.file), (place.column or 1) - 1

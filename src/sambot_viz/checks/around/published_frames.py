@@ -1,4 +1,4 @@
-"""Frames that nodes beside the robot publish: odometry, maps, fixed transforms."""
+"""Find frames that other nodes publish: odometry, maps, fixed transforms."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ _PUBLISHERS = (*DRIVE_ODOMS, "odom_frame")
 def may_be_published(around: Surroundings, frame: str) -> bool:
     """Return whether a node of the packages may publish a frame that is not a link.
 
-    It does where it names the frame, or starts a node that is not known. Then only a
-    frame that is a misspelt link is certainly none.
+    A package may do so when it names the frame, or starts an unknown node. In the
+    second case only a misspelt link is certainly not such a frame.
     """
     name = bare_frame(frame)
     if name in _named(around) or around.said_elsewhere(name):
@@ -39,7 +39,7 @@ def may_be_published(around: Surroundings, frame: str) -> bool:
 
 
 def _named(around: Surroundings) -> Iterator[str]:
-    """Give the frames that plugins, parameters and localization have."""
+    """Yield the frames of plugins, parameters and localization."""
     for plugin in around.plugins:
         for fact in plugin.all(*_PUBLISHERS):
             yield bare_frame(fact.value)
@@ -53,7 +53,7 @@ def _named(around: Surroundings) -> Iterator[str]:
         elif parameter.name == "left_wheel_names":
             yield "odom"
     for package in around.packages:
-        # MoveIt publishes where its virtual joint holds the robot.
+        # MoveIt publishes the transform of its virtual joint.
         for path in package.ending(".srdf", ".srdf.xacro"):
             yield from _HELD_BY.findall(package.text(path) or "")
     if any(_MAPS.search(text) for text in _started(around)):

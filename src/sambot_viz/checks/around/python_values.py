@@ -1,4 +1,4 @@
-"""The values in a Python file, found without running it."""
+"""Evaluate expressions in a Python file without running it."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class Texts(NamedTuple):
     """The texts in a list.
 
     Attributes:
-        items: each with its expression, None for one that is not known; those of a
-            glob share one expression.
+        items: each with its expression, None for an unknown one; those of a glob share
+            one expression.
         complete: False when there may be others.
     """
 
@@ -31,22 +31,22 @@ class Texts(NamedTuple):
 
     @property
     def known(self) -> frozenset[str] | None:
-        """The texts, None when there may be others."""
+        """The texts; None when there may be others."""
         texts = frozenset(text for _, text in self.items if text is not None)
         whole = all(text is not None for _, text in self.items)
         return texts if self.complete and whole else None
 
 
 class PythonValues:
-    """Works out expressions of a file, each where it stands.
+    """Evaluates expressions of a file, each in its place.
 
     Args:
         tree: the file.
         shown: its path, for places.
-        calls: what makes the result of a call, by its name.
+        calls: name of a call → the function that makes its result.
 
     Attributes:
-        actions: what it does as a launch file.
+        actions: its actions as a launch file.
         calls: all calls, from top to bottom.
     """
 
@@ -70,14 +70,14 @@ class PythonValues:
         return self._values.get(id(node))
 
     def declare(self, name: str, default: Expression) -> None:
-        """Let a launch argument stand for its default value."""
+        """Use the default as the value of a launch argument."""
         self._texts.arguments[name] = self._texts.settled(default)
 
     def text(self, node: ast.expr | None) -> str | None:
         """Return the text of an expression, None when it is not certain.
 
-        A launch argument stands for its default value, and the share folder of a
-        package for ``package://NAME``.
+        A launch argument becomes its default value, and the share folder of a package
+        becomes ``package://NAME``.
         """
         if id(node) not in self._known:
             self._known[id(node)] = self.said(self.of(node))
@@ -107,6 +107,6 @@ class PythonValues:
 
     @property
     def defaults(self) -> dict[str, str]:
-        """Launch argument → its default value, where that is known."""
+        """Launch argument → its default value, where known."""
         every = self._texts.arguments.items()
         return {name: text for name, text in every if isinstance(text, str)}

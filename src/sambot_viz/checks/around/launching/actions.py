@@ -1,7 +1,7 @@
-"""A launch file in one form, whether it is Python, XML or YAML.
+"""Represent launch files in Python, XML and YAML in one form.
 
-Texts are kept as expressions: their values depend on launch arguments, and so on who
-includes the file.
+Texts stay expressions: their values depend on launch arguments, which the including
+file may set.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from sambot_viz.errors import Place
 
 @dataclass(frozen=True, slots=True)
 class Joined:
-    """Texts one after the other.
+    """Texts joined in their order.
 
     Attributes:
         parts: the texts.
-        is_path: they are joined as parts of a path.
+        is_path: launch joins them as parts of a path.
     """
 
     parts: tuple[Expression, ...]
@@ -51,11 +51,11 @@ class ShareFolder:
 
 @dataclass(frozen=True, slots=True)
 class Operation:
-    """A text that is worked out of others.
+    """A text that launch computes from others.
 
     Attributes:
-        name: what is done; "eval" is an expression of Python.
-        operands: what it is done with.
+        name: the operation; "eval" evaluates an expression of Python.
+        operands: the inputs of the operation.
     """
 
     name: Literal["eval", "not", "and", "or", "equals", "differs", "if-else"]
@@ -67,7 +67,7 @@ class RobotText:
     """The text of a robot, as xacro or a file gives it.
 
     Attributes:
-        source: the command or the path that it comes from.
+        source: the command or the path that returns it.
     """
 
     source: Expression
@@ -79,11 +79,11 @@ Expression = str | Joined | LaunchArgument | ShareFolder | Operation | RobotText
 
 @dataclass(frozen=True, slots=True)
 class WrittenValue:
-    """A parameter that is written in a launch file.
+    """A parameter in a launch file.
 
     Attributes:
         name: its name, with dots.
-        values: its value, or the items of a list; None when they are not known.
+        values: its value, or the items of a list; None when unknown.
         place: its line.
     """
 
@@ -113,11 +113,11 @@ Given = WrittenValue | FromFile
 
 @dataclass(frozen=True, slots=True)
 class Action:
-    """One thing that a launch file does.
+    """An action of a launch file.
 
     Attributes:
         place: its line.
-        condition: the text that has to be true.
+        condition: the text that must be true.
     """
 
     place: Place
@@ -130,8 +130,8 @@ class SetArgument(Action):
 
     Attributes:
         name: of the argument.
-        value: the value; None when it has to be given.
-        declares: a value that is there already is kept.
+        value: the value; None when the user must set it.
+        declares: an existing value remains.
     """
 
     name: Expression
@@ -146,13 +146,13 @@ class StartNode(Action):
     Attributes:
         package: its package.
         executable: the program; of a component its class.
-        name: what it is called; empty for the program's own name.
-        namespace: empty for that around it.
+        name: its name; empty for the program's own name.
+        namespace: its namespace; empty for the surrounding one.
         given: its parameters.
         remappings: topic, and what it becomes.
         arguments: its arguments.
-        complete: its parameters and arguments are all known.
-        argument_places: the place of each of the arguments, where these have their own.
+        complete: all its parameters and arguments are known.
+        argument_places: the place of each argument, where they have separate places.
     """
 
     package: Expression
@@ -192,11 +192,11 @@ class IncludeFile(Action):
 
 @dataclass(frozen=True, slots=True)
 class ActionGroup(Action):
-    """Actions together.
+    """A group of actions.
 
     Attributes:
         actions: the actions.
-        scoped: what is set inside ends with it.
+        scoped: settings inside end with the group.
     """
 
     actions: tuple[Action, ...]
@@ -205,10 +205,10 @@ class ActionGroup(Action):
 
 @dataclass(frozen=True, slots=True)
 class ForNodes(Action):
-    """What all nodes get that follow in the same group.
+    """Settings for all later nodes of the same group.
 
     Attributes:
-        namespace: is put before their names; empty for none.
+        namespace: precedes their names; empty for none.
         given: parameters.
         remappings: topic, and what it becomes.
     """

@@ -1,4 +1,4 @@
-"""Reads launch files in XML and YAML, which have the same words."""
+"""Read launch files in XML and YAML, which share one vocabulary."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def text_of(written: str) -> Expression:
 
 
 def _end(written: str, start: int) -> int | None:
-    """Return where the bracket ends that opens before an offset."""
+    """Return the end of the bracket that opens before an offset."""
     depth = 1
     for at in range(start, len(written)):
         depth += {"(": 1, ")": -1}.get(written[at], 0)
@@ -96,7 +96,7 @@ def _unquoted(text: str) -> str:
 
 
 def element_of(file: YamlFile) -> Element:
-    """Return a YAML launch file as the elements that the same one in XML has."""
+    """Return a YAML launch file as the elements of the same file in XML."""
     root = Element("launch", {}, place_of(file.root, file.shown))
     for key, value in pairs(file.root):
         if key.value == "launch":
@@ -105,7 +105,7 @@ def element_of(file: YamlFile) -> Element:
 
 
 def _fill(element: Element, node: yaml.Node, file: str, depth: int) -> None:
-    """Give an element what a value of YAML says, as attributes and elements."""
+    """Add a YAML value to an element, as attributes and child elements."""
     if depth > limits.YAML_DEPTH.value:
         return
     if isinstance(node, yaml.SequenceNode):
@@ -224,7 +224,7 @@ def _node(element: Element, condition: Expression) -> StartNode:
 
 
 def _words(words: list[str]) -> Iterator[str]:
-    """Give the words of a command; a substitution is not taken apart."""
+    """Yield the words of a command; a substitution stays one word."""
     open_ = ""
     for word in words:
         open_ = f"{open_} {word}".strip()

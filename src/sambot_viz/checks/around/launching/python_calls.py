@@ -1,4 +1,4 @@
-"""The calls in a Python launch file that make actions, conditions and texts."""
+"""Evaluate calls in a Python launch file that make actions, conditions and texts."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ Made = Callable[[Call], PythonValue]
 
 
 def _first(*names: str) -> Made:
-    """Take a call for its argument."""
+    """Treat a call as its argument."""
 
     def make(call: Call) -> PythonValue:
         named = (call.value(name) for name in names)
@@ -195,7 +195,7 @@ def _set(call: Call) -> PythonValue:
 
 
 def _grouped(argument: str, position: int | None, *, scoped: bool = False) -> Made:
-    """Take a call for the actions in one of its arguments."""
+    """Treat a call as the actions in one of its arguments."""
 
     def make(call: Call) -> PythonValue:
         actions = call.actions(argument, position)
@@ -206,7 +206,7 @@ def _grouped(argument: str, position: int | None, *, scoped: bool = False) -> Ma
 
 
 def _unknown(call: Call) -> PythonValue:
-    """Take what a function would return for actions that may start."""
+    """Treat the return value of a function as actions that may start."""
     more = UnknownAction(call.place, "true", "OpaqueFunction")
     inner = [a for a in call.actions("function", 0) if not isinstance(a, UnknownAction)]
     return ActionGroup(call.place, None, (*inner, more), scoped=False)

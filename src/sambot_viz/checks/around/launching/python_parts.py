@@ -1,4 +1,4 @@
-"""The values in a Python launch file."""
+"""Represent the values in a Python launch file."""
 
 from __future__ import annotations
 
@@ -86,11 +86,11 @@ def place_in(file: str, node: ast.expr | ast.stmt) -> Place:
 def as_actions(
     value: PythonValue, file: str, node: ast.expr | ast.stmt
 ) -> tuple[Action, ...]:
-    """Return the actions in a list; what is not known is an unknown action.
+    """Return the actions in a list; an unknown item becomes an unknown action.
 
     Args:
         value: the list, or one action.
-        file: of the launch file.
+        file: the launch file.
         node: the expression that has this value.
     """
     items = value.items if isinstance(value, Listing) else ((value, node),)
@@ -106,14 +106,14 @@ def as_actions(
 
 
 def _doubtful(value: PythonValue) -> PythonValue:
-    """Return a value that is perhaps not used."""
+    """Return a value that the launch file may not use."""
     if isinstance(value, Action):
         return ActionGroup(value.place, None, (value,), scoped=False)
     return None
 
 
 def added(one: PythonValue, other: PythonValue) -> PythonValue:
-    """Return two texts, lists or tables as one."""
+    """Return two texts, lists or dicts joined."""
     if isinstance(one, Table) and isinstance(other, Table):
         return Table((*one.pairs, *other.pairs), one.complete and other.complete)
     if not isinstance(one, Listing) and not isinstance(other, Listing):
@@ -140,7 +140,7 @@ def formatted(text: PythonValue, values: PythonValue) -> PythonValue:
 
 
 def either(one: PythonValue, other: PythonValue) -> PythonValue:
-    """Return what is one of two values."""
+    """Return a value that is one of two."""
     if one is other or one == other:
         return one
     if isinstance(one, Listing) and isinstance(other, Listing):
@@ -172,7 +172,7 @@ def assign(target: ast.expr, value: PythonValue, names: Names) -> None:
 
 
 def item_of(value: PythonValue, key: PythonValue) -> PythonValue:
-    """Return what a list or a table has for a key."""
+    """Return the item of a list or a dict for a key."""
     if isinstance(value, Table) and isinstance(key, str):
         pairs = reversed(value.pairs)
         return next((pair.value for pair in pairs if pair.key == key), None)
@@ -184,11 +184,11 @@ def item_of(value: PythonValue, key: PythonValue) -> PythonValue:
 def truth_of(
     node: ast.expr, value: Callable[[ast.expr | None], PythonValue]
 ) -> bool | None:
-    """Return whether an expression is true; None when it is not known.
+    """Return whether an expression is true; None when unknown.
 
     Args:
         node: the expression.
-        value: works out an expression in it.
+        value: evaluates an expression in it.
     """
     match node:
         case ast.Constant(value=constant):
@@ -209,15 +209,15 @@ class Call:
 
     Args:
         node: the call.
-        file: of the launch file, for places.
-        value: works out an expression.
-        result: returns what a function of the file returns.
+        file: the launch file, for places.
+        value: evaluates an expression.
+        result: returns the result of a function of the file.
 
     Attributes:
         node: the call.
-        name: of what is called: "Node" in ``actions.Node(…)``.
+        name: of the called function or class: "Node" in ``actions.Node(…)``.
         place: of the call.
-        complete: all its arguments are written here.
+        complete: the call has all its arguments, without * and **.
     """
 
     def __init__(
@@ -234,7 +234,7 @@ class Call:
         self.complete = all(k.arg for k in node.keywords)
 
     def given(self, name: str, position: int | None = None) -> ast.expr | None:
-        """Return the expression of an argument; None where it is not given."""
+        """Return the expression of an argument; None for a missing one."""
         given = next((k.value for k in self.node.keywords if k.arg == name), None)
         if given is None and position is not None and position < len(self.node.args):
             given = self.node.args[position]
@@ -248,7 +248,7 @@ class Call:
     def text(
         self, name: str, position: int | None = None, default: Expression = ""
     ) -> Expression:
-        """Return an argument as a text, and the default where it is not given."""
+        """Return an argument as a text; the default for a missing one."""
         node = self.given(name, position)
         return default if node is None else as_text(self._value(node))
 
@@ -257,7 +257,7 @@ class Call:
         return tuple(as_text(self._value(node)) for node in self.node.args)
 
     def listing(self, name: str, position: int | None = None) -> Listing:
-        """Return an argument as a list; an empty one where it is not given."""
+        """Return an argument as a list; an empty one for a missing argument."""
         node = self.given(name, position)
         value = self._value(node)
         if node is None or isinstance(value, Listing):
@@ -266,7 +266,7 @@ class Call:
         return Listing(items, complete=value is not None)
 
     def actions(self, name: str, position: int | None = None) -> tuple[Action, ...]:
-        """Return an argument as actions; a function stands for what it returns."""
+        """Return an argument as actions; a function becomes its return value."""
         node = self.given(name, position)
         value = self._value(node)
         if isinstance(value, ast.FunctionDef):
@@ -275,7 +275,7 @@ class Call:
 
     @property
     def condition(self) -> Expression:
-        """The text that has to be true for an action."""
+        """The text that must be true for an action."""
         return self.text("condition", default="true")
 
     def place_of(self, node: ast.expr) -> Place:

@@ -1,4 +1,4 @@
-"""Follows a Python launch file through its syntax tree, without running it."""
+"""Follow a Python launch file through its syntax tree, without running it."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class PythonReader:
     Args:
         tree: the file.
         shown: its path, for places.
-        calls: what makes the result of a call, by its name.
+        calls: name of a call → the function that makes its result.
 
     Attributes:
         values: the id of an expression → its value, None where it has several.
@@ -66,14 +66,14 @@ class PythonReader:
 
     def read(self) -> tuple[Action, ...]:
         """Return the actions of the launch file."""
-        # The folder of the file is what others are looked for in.
+        # Paths of other files begin at the folder of this one.
         names: Names = {"__file__": Joined((ShareFolder(""), "launch.py"), True)}
         self._run(self._tree.body, names, [])
         entry = names.get(_ENTRY)
         if isinstance(entry, ast.FunctionDef):
             found = as_actions(self.result_of(entry, names), self._shown, entry)
         else:
-            # What is wrong with such a file is a finding; what it names is still meant.
+            # The fault of such a file is a finding; the names in it still count.
             bare = [s.value for s in self._tree.body if isinstance(s, ast.Expr)]
             made = [self.value(call, names) for call in bare]
             found = tuple(each for each in made if isinstance(each, Action))
@@ -89,7 +89,7 @@ class PythonReader:
                 self.result_of(node, names)
 
     def result_of(self, function: ast.FunctionDef, names: Names) -> PythonValue:
-        """Return what a function returns that is called with unknown arguments."""
+        """Return the result of a function for unknown arguments."""
         return self._result(function, names, ())
 
     def _result(
@@ -113,7 +113,7 @@ class PythonReader:
     def _run(
         self, body: Sequence[ast.stmt], names: Names, results: list[PythonValue]
     ) -> bool:
-        """Follow statements; True when they end with a return for certain."""
+        """Follow statements; return True when they certainly end with a return."""
         return any(self._step(step, names, results) for step in body)
 
     def _step(self, step: ast.stmt, names: Names, results: list[PythonValue]) -> bool:
@@ -194,7 +194,7 @@ class PythonReader:
             names[name] = changed
 
     def _change(self, call: ast.Call, names: Names) -> None:
-        """Follow a list or a description that gets longer."""
+        """Follow a call that extends a list or a description."""
         match call.func:
             case ast.Attribute(value=ast.Name(id=name), attr=method) if call.args:
                 more = self.value(call.args[0], names)

@@ -1,4 +1,4 @@
-"""Reads a launch file, whatever its form."""
+"""Read a launch file, whatever its form."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from sambot_viz.robot.xml.element import Element, parse_xml
 def read_actions(
     text: str, path: str, shown: str, read: YamlFile | None
 ) -> tuple[Action, ...] | None:
-    """Return what a launch file does; None for one that is not readable.
+    """Return the actions of a launch file; None for an unreadable one.
 
     Args:
         text: the file.
         path: relative to the package.
         shown: the path as the user would write it.
-        read: a YAML file, where it was read for other reasons.
+        read: the YAML file, where another rule has read it.
     """
     if path.endswith(".py"):
         tree = parse_python(text)
@@ -28,7 +28,7 @@ def read_actions(
     root = read_root(text, path, shown, read)
     if root is None:
         return None
-    # The import is late, as below: most launch files are in Python.
+    # Import late, as below: most launch files are in Python.
     from sambot_viz.checks.around.launching.frontend_reader import read_frontend
 
     return read_frontend(root)

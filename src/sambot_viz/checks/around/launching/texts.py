@@ -1,4 +1,4 @@
-"""Works out the texts of launch files: arguments, paths, conditions."""
+"""Evaluate the texts of launch files: arguments, paths and conditions."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ _METHODS = frozenset({"lower", "upper", "strip", "startswith", "endswith"})
 
 
 class _NotKnown(Exception):
-    """Raised for an expression of Python that is not understood."""
+    """An expression of Python that this module does not understand."""
 
 
 class LaunchTexts:
-    """Works out expressions with the launch arguments that are set.
+    """Evaluates expressions with the values of launch arguments.
 
     Attributes:
         arguments: name → its value as an expression without arguments.
@@ -68,7 +68,7 @@ class LaunchTexts:
                 return self.text(expression)
 
     def text(self, expression: Expression) -> str | None:
-        """Return the text of an expression; None when it is not known."""
+        """Return the text of an expression; None when unknown."""
         self._left -= 1
         if self._left < 0:
             return None
@@ -77,7 +77,7 @@ class LaunchTexts:
         return found if short else None
 
     def marked(self, expression: Expression) -> str | None:
-        """Return the text of a command, with UNKNOWN for each part not known."""
+        """Return the text of a command, with UNKNOWN for each unknown part."""
         if isinstance(expression, Joined) and not expression.is_path:
             return "".join(self.marked(part) or UNKNOWN for part in expression.parts)
         return self.text(expression)
@@ -129,7 +129,7 @@ class LaunchTexts:
         return scheme + (posixpath.normpath(below) if ".." in below else below)
 
     def truth(self, expression: Expression) -> bool | None:
-        """Return whether a text is true; None when that is not known."""
+        """Return whether a text is true; None when unknown."""
         match expression:
             case Operation(name="not", operands=(inner,)):
                 truth = self.truth(inner)
@@ -165,7 +165,7 @@ class LaunchTexts:
 
 
 def _evaluated(written: str) -> str | None:
-    """Return what an expression of Python gives; None when it is not understood."""
+    """Return the value of an expression of Python; None for one not understood."""
     tree = parse_python(written.strip())
     match tree:
         case ast.Module(body=[ast.Expr(value=inner)]):
