@@ -1,4 +1,4 @@
-"""Wheels across their axles, and two wheels in one place."""
+"""Report wheels across their axles, and two wheels in one place."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ _ALONG = 0.99
 def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
     """Report wheels that turn end over end, in one finding.
 
-    A wheel turns without end about a level axis, and all that is drawn of it, or all
-    that it touches with, are discs. In a swivelling caster the axis is upright; that
-    of a link that is called a wheel, and nothing else, is not.
+    A wheel turns without limit about a level axis, and all its visuals or all its
+    collision shapes are discs. The axis of a swivelling caster is upright. The axis of
+    a link is not, when its name means a wheel and not a caster.
     """
     robot = subject.robot
     across: dict[str, tuple[Joint, Shape, Vector3]] = {}
@@ -75,7 +75,7 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
 def _lying(
     robot: Robot, links: Iterable[str], shape: Shape, axle: Vector3
 ) -> tuple[Edit, ...]:
-    """Return the edits that lay all shapes down that are turned as one is."""
+    """Return the edits that lay down all shapes with the rotation of one."""
     rpy = _ALONG_AXIS.get(_named(axle), "")
     shapes = (
         s for n in links for s in (*robot.links[n].visuals, *robot.links[n].collisions)
@@ -98,9 +98,9 @@ def _through_both_wheels(
 ) -> Vector3 | None:
     """Return the direction in which another wheel lies, in this wheel's link, or None.
 
-    An axle goes through two wheels. Where one lies in front as well, as with four
-    wheels, the axle is the one across x, which is the robot's way forward. The axis,
-    the middle line, and what is level and across the axis are asked.
+    An axle goes through two wheels. Where another one also lies in front, as with four
+    wheels, the axle is across x, the forward direction of the robot. The candidates are
+    the axis, the middle line, and the level direction across the axis.
     """
     wheel = robot.at_start[joint.child]
     asked = [wheel.turned(axle), wheel.turned(shape.origin.pose.turned(UP))]
@@ -146,7 +146,7 @@ def _is_like(one: Shape, other: Shape) -> bool:
 
 
 def wheels_in_one_place(subject: Subject) -> Iterator[Problem]:
-    """Report a wheel that is where another one is, as when both are on the left."""
+    """Report a wheel in the place of another one, as when both are on the left."""
     robot = subject.robot
     seen: dict[object, Joint] = {}
     for joint in robot.joints.values():
@@ -185,18 +185,18 @@ def _in_one_place(one: Joint, other: Joint, robot: Robot) -> Problem:
 
 
 def _on_wrong_side(one: Joint, other: Joint) -> Joint:
-    """Return which of two wheels is not where its name says; the later by default."""
+    """Return the one of two wheels on the wrong side for its name, else the later."""
     side = "right" if one.origin.xyz[1] > 0 else "left"
     return one if side in f"{one.name} {one.child}".lower() else other
 
 
 def _are_sides(one: str, other: str) -> bool:
-    """Return whether names are of the left and of the right side."""
+    """Return whether names mean the left and the right side."""
     return "left" in one and "right" in other
 
 
 def axle_of(joint: Joint) -> Vector3 | None:
-    """Return the unit axis of a joint that turns without end, in the child link."""
+    """Return the unit axis of a joint without limits, in the child link."""
     if joint.type not in ("continuous", "revolute") or is_rotor(joint):
         return None
     if joint.limit is not None and joint.limit.ends != (None, None):
@@ -228,7 +228,7 @@ _UNITS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 
 
 def _named(direction: Vector3) -> str:
-    """Name a direction: "y", or its numbers where it is between x, y and z."""
+    """Name a direction: "y", or its numbers for one between x, y and z."""
     for name, part in zip("xyz", direction, strict=True):
         if abs(part) > _ALONG:
             return name
@@ -240,7 +240,7 @@ def _numbers(values: Vector3) -> str:
 
 
 def _laid_down(shape: Shape, axle: Vector3, language: Language) -> str:
-    """Say how a cylinder is laid along its axle."""
+    """Name the rotation that lays a cylinder along its axle."""
     rpy = _ALONG_AXIS.get(_named(axle))
     if rpy is None:
         return "turn the shape so that its z axis is along the axle"
@@ -251,6 +251,6 @@ def _laid_down(shape: Shape, axle: Vector3, language: Language) -> str:
 
 
 def _turned_axis(middle: Vector3, language: Language) -> str:
-    """Say which axis fits a wheel that stands upright."""
+    """Name the axis that fits an upright wheel."""
     xyz = _UNITS.get(_named(middle)) or _numbers(middle)
     return f"write {axis_text(xyz, language)}"

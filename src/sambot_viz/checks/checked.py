@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """What was checked, and what is wrong with it.
+    """The checked models, and their problems.
 
     Attributes:
         models: the models.
@@ -44,7 +44,7 @@ class Checked:
 
 
 class _Loaded(NamedTuple):
-    """A model that was loaded, and what the files around it have against it."""
+    """A loaded model, and the problems of the files around it."""
 
     target: CheckedModel
     robot: Robot
@@ -60,10 +60,10 @@ def check_all(
     workspace: Sequence[Path | str] = (),
     trusted: bool = True,
 ) -> Checked:
-    """Do what `check` does, and tell which models were checked.
+    """Check like `check`, and also return the checked models.
 
     Raises:
-        UsageError: a folder with nothing to check, or with several models.
+        UsageError: a folder without anything to check, or with several models.
     """
     targets = find_targets(path, package_path, workspace, trusted=trusted)
     problems: list[Problem] = []
@@ -100,7 +100,7 @@ def problems_around(
     workspace: Sequence[Path | str] = (),
     read: set[Path] | None = None,
 ) -> list[Problem]:
-    """Return what the files around a model have against it; see `check_around`."""
+    """Return the problems of the files around a model; see `check_around`."""
     trusted = robot.file_roots is None
     targets = find_targets(model, (), workspace, trusted=trusted, read=read)
     (target,) = targets.models
@@ -115,11 +115,11 @@ def frame_is_published(
     config: str | None = None,
     workspace: Sequence[Path | str] = (),
 ) -> bool:
-    """Return whether the packages of a robot, or that of a config, may publish a frame.
+    """Return whether the packages of a robot or of a config may publish a frame.
 
     Args:
         robot: the robot.
-        frame: no link of it.
+        frame: a frame that is not one of its links.
         config: the .rviz file, if there is one.
         workspace: as for `check`.
     """
@@ -142,7 +142,7 @@ def frame_is_published(
 
 
 def _of_packages(targets: Targets, loaded: Sequence[_Loaded]) -> list[Problem]:
-    """Return what is wrong around the models, and with packages by themselves."""
+    """Return the problems around the models, and of packages without a model."""
     found = list(targets.notes)
     for package in _alone(targets, loaded):
         found += wrong_files(package)
@@ -157,15 +157,15 @@ def _of_packages(targets: Targets, loaded: Sequence[_Loaded]) -> list[Problem]:
 
 
 def _alone(targets: Targets, loaded: Sequence[_Loaded]) -> list[Package]:
-    """Return the packages that no model was checked with."""
+    """Return the packages that belong to no checked model."""
     covered = {package for one in loaded for package in one.target.packages}
     return [package for package in targets.packages if package not in covered]
 
 
 def _is_certain(problem: Problem, one: _Loaded, loaded: Sequence[_Loaded]) -> bool:
-    """Return whether a file that several models share is wrong for each of them.
+    """Return whether a problem of a shared file is the same for all its models.
 
-    It may be meant for one of them.
+    The file may be for one of them.
     """
     if problem.file is None or len(loaded) == 1:
         return True
@@ -181,10 +181,10 @@ def _is_certain(problem: Problem, one: _Loaded, loaded: Sequence[_Loaded]) -> bo
 
 
 def _of_configs(target: CheckedModel, robot: Robot) -> list[Problem]:
-    """Return what is wrong with the .rviz files of a model, if they are for it."""
+    """Return the problems of the .rviz files of a model, if they are for it."""
     if not target.is_main or not target.packages:
         return []
-    # The imports are late: many models are in no package.
+    # Import late: many models have no package.
     from sambot_viz.checks.around.surroundings import Surroundings
 
     around = Surroundings(robot, target.packages)
@@ -192,7 +192,7 @@ def _of_configs(target: CheckedModel, robot: Robot) -> list[Problem]:
     for package in target.packages:
         opened = _opened(package)
         for path in _others(package):
-            # Which robot the others are for is known of those that are opened.
+            # Only the launch file that opens another config shows its robot.
             of_file = _of_config(package, around if path in opened else None, path)
             found += [p for p in of_file if p.code not in _OF_FIRST]
     return found
@@ -208,7 +208,7 @@ _OF_FIRST = frozenset(
 
 
 def _others(package: Package) -> list[Path]:
-    """Return the .rviz files of a package but its first."""
+    """Return the .rviz files of a package except its first."""
     first = config_in(package.folder)
     files = [package.folder / path for path in package.ending(".rviz")]
     return [file for file in files if file != first]
@@ -226,7 +226,7 @@ def _opened(package: Package) -> list[Path]:
 def _of_config(
     package: Package, around: Surroundings | None = None, path: Path | None = None
 ) -> list[Problem]:
-    """Return what is wrong with a .rviz file of a package, by default its first."""
+    """Return the problems of a .rviz file of a package, by default its first."""
     from sambot_viz.checks.around.published_frames import may_be_published
     from sambot_viz.checks.around.workspace import shown
     from sambot_viz.checks.config_against_robot import (

@@ -1,7 +1,7 @@
-"""How certain a guess is: one clue makes it a note, two that are independent a warning.
+"""Rate a guess: one clue makes it a note, two independent ones a warning.
 
-A rule that takes a unit or an intention from numbers collects its clues by name; what
-a guess says is never an error, for ROS accepts the numbers.
+A rule that infers a unit or an intention from numbers collects its clues by name. A
+guess is never an error, because ROS accepts the numbers.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ Clues = Set[str]
 
 
 def severity(clues: Clues) -> Severity:
-    """Return how serious a guess is by the number of its clues."""
+    """Return the severity of a guess by the number of its clues."""
     return "warning" if len(clues) > 1 else "info"
 
 
@@ -34,6 +34,6 @@ def is_written_whole(value: float) -> bool:
 def is_measured(value: float) -> bool:
     """Return whether a number is neither 0 nor 1, 10, 0.1 or the like.
 
-    Powers of ten are what people write for what they do not know.
+    People write powers of ten for values that they do not know.
     """
     return f"{abs(value):.9f}".replace(".", "").strip("0") not in ("", "1")

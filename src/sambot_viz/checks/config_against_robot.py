@@ -1,7 +1,7 @@
 """Find settings of an RViz config that prevent the robot from being shown.
 
-Such a config is valid, and RViz reports nothing or too little: a fixed frame that is
-not published, a robot description that RViz will miss.
+Such a config is valid, and RViz reports nothing or too little. Examples are a fixed
+frame that no node publishes, and a robot description that RViz misses.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ _LIKENESS = 0.87
 
 
 def check_config(robot: Robot, config: RvizConfig) -> list[Problem]:
-    """Find settings of a config that do not fit this robot.
+    """Find settings of a config that do not match this robot.
 
     Args:
-        robot: the robot to be shown.
-        config: the config it is shown with.
+        robot: the robot to show.
+        config: the config that shows it.
 
     Returns:
         Warnings and notes, in the order of the file.
@@ -64,7 +64,7 @@ def moveit_draws_robot(config: RvizConfig) -> bool:
 
 
 def _misspelt_classes(config: RvizConfig) -> Iterator[Problem]:
-    """Find displays of a class that is almost one of RViz."""
+    """Find displays with a misspelt class."""
     known = [
         f"{package}/{name}"
         for package, names in vocabulary("rviz_classes").items()
@@ -89,7 +89,7 @@ def _misspelt_classes(config: RvizConfig) -> Iterator[Problem]:
 
 
 def _of_message(kind: str) -> str | None:
-    """Return the display for the message that a class is called after."""
+    """Return the display for the message whose name the class has."""
     package, _, name = kind.rpartition("/")
     if package != _ROBOT_MODEL.rpartition("/")[0]:
         return None
@@ -148,7 +148,7 @@ def _switched_off(display: DisplayConfig, file: str | None) -> Problem:
 
 
 def _shows_nothing(display: DisplayConfig) -> bool:
-    """True for a robot of which neither visuals nor collisions are drawn."""
+    """True for a robot display without visuals and collisions."""
     node = display.node
     shown = node.text("Collision Enabled") or "false"
     return node.text("Visual Enabled") == "false" and shown == "false"
@@ -238,9 +238,9 @@ def _text(node: Node | None) -> str:
 
 
 def _place(file: str | None, node: Node | None) -> Place | str | None:
-    """Return the place of a value; only the file when it is a default.
+    """Return the place of a value; only the file for a default.
 
-    The file does not say what was typed in the page.
+    The file does not have values that the user typed in the page.
     """
     if isinstance(node, Scalar) and node.changed:
         return None

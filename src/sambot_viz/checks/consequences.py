@@ -1,7 +1,6 @@
-"""What follows from a finding: the model is read again with its edits, in memory.
+"""Drop consequences of a finding: read the model again with its edits, in memory.
 
-A finding that is gone then, or says something else, was a consequence, and is not
-shown by itself.
+A finding that then disappears or changes was a consequence, and the check drops it.
 """
 
 from __future__ import annotations
@@ -29,8 +28,8 @@ def without_consequences(
 
     Args:
         subject: the robot, with the problems of its text, which are the first causes.
-        found: what rules have found, in the order in which causes come first.
-        look: finds the same in another robot.
+        found: the findings of rules, in an order with causes first.
+        look: applies the rules to another robot.
     """
     kept, looked = with_edits(found), 0
     causes = [*with_edits(subject.robot.problems), *kept]
@@ -46,16 +45,16 @@ def without_consequences(
         again = look(better)
         there = {_where(p) for p in (*again, *better.robot.problems)}
         if not there.isdisjoint(map(_where, own)):
-            # The edits do not repair it, so that nothing follows from it.
+            # The edits do not repair it, so it has no consequences.
             continue
-        # What is said in other words then, with other numbers, waits for that.
+        # A finding that then has other words and numbers waits for that repair.
         after = {(_where(p), p.message) for p in again}
         kept = [p for p in kept if p.code == code or (_where(p), p.message) in after]
     return kept
 
 
 def _edited(subject: Subject, edits: tuple[Edit, ...]) -> Subject | None:
-    """Return the robot as edits make it; None where they do not make one."""
+    """Return the edited robot; None where the edits break it."""
     if edits not in subject.edited:
         subject.edited[edits] = _read_again(subject, edits)
     return subject.edited[edits]

@@ -1,4 +1,4 @@
-"""The name that a copied link or joint was to get: what other files call for."""
+"""Name a copied link or joint by the name that other files ask for."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ _VALUES = re.compile(r"=\s*[\"']([\w-]+)[\"']|>\s*([\w-]+)\s*<")
 def with_missing_names(
     problems: Sequence[Problem], target: CheckedModel
 ) -> list[Problem]:
-    """Return problems; a copy gets the name that a file calls for and nothing has.
+    """Return problems; a copy gets the unused name that a file asks for.
 
     Args:
-        problems: those for which ROS refuses the model.
+        problems: the problems for which ROS refuses the model.
         target: the model, and the packages whose files name its links and joints.
     """
     copied = [p for p in problems if p.code in _COPIED and not p.edits and p.line]
@@ -68,7 +68,7 @@ def _around(target: CheckedModel) -> Iterator[str]:
 def _renamed(
     problem: Problem, wanted: Iterable[str], swaps: list[tuple[str, str]]
 ) -> Fix | None:
-    """Return the fix that gives a copy the only name of its kind that is wanted."""
+    """Return the fix that gives a copy the only wanted name of its kind."""
     place = Place(problem.file or "", problem.line or 1, problem.column)
     source = source_of(place.file)
     tag = None if source is None else source.tag(source.offset(place))
@@ -107,7 +107,7 @@ def _swapped(name: str, pair: tuple[str, str]) -> str:
 
 
 def _swap(one: str, other: str) -> tuple[str, str] | None:
-    """Return the words in which the names of two like parts differ."""
+    """Return the words in which the names of two similar parts differ."""
     pieces = [_PIECE.findall(name) for name in (one, other)]
     if len(pieces[0]) != len(pieces[1]):
         return None

@@ -1,4 +1,4 @@
-"""A joint whose parent and child are exchanged, so that a part became the root."""
+"""Report a joint with exchanged parent and child, which makes a part the root."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ _OF_ALL = frozenset("joint link to".split())
 
 
 def exchanged_joint(subject: Subject) -> Iterator[Problem]:
-    """Report a part as the root, whose only joint is named after it and not its child.
+    """Report a part as the root, with a joint named after it and not after its child.
 
-    It is a guess: the tree is right, but everything hangs from the part.
+    It is a guess: the tree is valid, but everything hangs from the part.
     """
     joint = joint_of_part(subject.robot)
     if joint is None:
@@ -35,7 +35,7 @@ def exchanged_joint(subject: Subject) -> Iterator[Problem]:
 
 
 def joint_of_part(robot: Robot) -> Joint | None:
-    """Return the joint of a root that is named after that and after no base."""
+    """Return the joint of a root that has the root's name and not that of a base."""
     joint = joint_of_root(robot)
     if joint is None or not _words(joint.name) & (_words(robot.root) - _BASES):
         return None
@@ -45,7 +45,7 @@ def joint_of_part(robot: Robot) -> Joint | None:
 
 
 def joint_of_root(robot: Robot) -> Joint | None:
-    """Return the only joint of a root that has a shape, where others hang behind it."""
+    """Return the only joint of a root with a shape, where other links follow it."""
     root = robot.links[robot.root]
     own = [joint for joint in robot.joints.values() if joint.parent == robot.root]
     # A link without a shape, such as base_footprint, may be the root.

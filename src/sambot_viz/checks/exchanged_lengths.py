@@ -1,4 +1,4 @@
-"""Cylinders whose radius and length are exchanged in one of two places."""
+"""Report cylinders with exchanged radius and length in one of two places."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _ALIKE = 1e-3
 
 
 def exchanged_lengths(subject: Subject) -> Iterator[Problem]:
-    """Report a cylinder that its link has with the two lengths the other way round.
+    """Report a cylinder that its link also has with exchanged radius and length.
 
     Two sources contradict each other: the visual and the collision, or the shape and
     the moments of inertia, which fit the exchanged lengths exactly.

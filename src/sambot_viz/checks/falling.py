@@ -1,4 +1,4 @@
-"""A robot on wheels whose centre of mass is beyond what it stands on."""
+"""Report a robot on wheels whose centre of mass is outside its support."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ _FEWEST_CONTACTS = 3
 
 
 def falls_over(subject: Subject) -> Iterator[Problem]:
-    """Report a robot on wheels that falls over where all its joints are at the start.
+    """Report a robot on wheels that falls over with all joints at the start.
 
-    Only where that is certain: all shapes are known, all links that collide have a
-    mass, and three links stand on the ground, two of them wheels; or two wheels alone,
-    and there is a caster above the ground. Two wheels in one place are the cause.
+    Only certain cases count. All shapes are known, and all links with collision shapes
+    have a mass. Three links touch the ground, two of them wheels; or only two wheels
+    do, and a caster is above the ground. Two wheels in one place are another cause.
     """
     robot, unknown = subject.robot, False
     if any(wheels_in_one_place(subject)):
@@ -71,7 +71,7 @@ def falls_over(subject: Subject) -> Iterator[Problem]:
 
 
 def _beside_axle(found: Balance, feet: Contacts, wheels: Sequence[str]) -> bool:
-    """Return whether the weight is not above the line on which two wheels stand."""
+    """Return whether the weight is off the line between the contacts of two wheels."""
     (x, y), (other_x, other_y) = (_middle(feet.points[link]) for link in wheels)
     ahead, aside = other_x - x, other_y - y
     length = math.hypot(ahead, aside)
@@ -94,7 +94,7 @@ def _middle(points: Sequence[Vector3]) -> Vector2:
 def _caster_in_the_air(
     robot: Robot, feet: Contacts, wheels: Sequence[str]
 ) -> Iterator[Problem]:
-    """Report the lowest caster of a robot that stands on two wheels alone."""
+    """Report the lowest caster of a robot that only two wheels support."""
     gaps = {
         link: min(z for _, _, z in points) - feet.height
         for link, points in feet.points.items()

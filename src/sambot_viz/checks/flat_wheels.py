@@ -1,4 +1,4 @@
-"""Wheels that lie flat: their joint is turned as well as their shape."""
+"""Report wheels that lie flat: both their joint and their shape are turned."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ _LEVEL = 0.1
 def flat_wheels(subject: Subject) -> list[Problem]:
     """Report driven wheels whose axle is upright, though their shape lies along it.
 
-    There are two clues: a disc that turns about its own middle line, in a link that is
-    called a wheel and does not swivel, and a joint that would hold it upright if it
-    were not turned.
+    There are two clues. The first is a disc that turns about its middle line, in a link
+    that is named a wheel and does not swivel. The second is a joint that would hold the
+    wheel upright without its rotation.
     """
     robot = subject.robot
     flat = [joint for joint in robot.joints.values() if _lies_flat(joint, robot)]

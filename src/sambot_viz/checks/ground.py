@@ -1,4 +1,4 @@
-"""Wheels that do not touch the floor on which base_footprint lies."""
+"""Report wheels that do not touch the floor below base_footprint."""
 
 from __future__ import annotations
 
@@ -25,8 +25,9 @@ _MOVED_IN_YAML = re.compile(r"^\s*base_link_frame\s*:\s*[\"']?([\w/]+)", re.M)
 def wheels_off_the_ground(subject: Subject) -> Iterator[Problem]:
     """Report wheels above or below height 0 of base_footprint, in one finding.
 
-    Navigation puts base_footprint on the floor, so a wheel above it floats. Gaps up to
-    10 mm or a tenth of the wheel's radius are tolerated: tyres are often modelled so.
+    Navigation puts base_footprint on the floor, so a wheel above it floats. The rule
+    tolerates gaps up to 10 mm or a tenth of the wheel's radius, which are common in
+    models of tyres.
     """
     robot = subject.robot
     footprint = next((n for n in robot.links if n.endswith("base_footprint")), None)
@@ -77,8 +78,8 @@ def _turned(
 ) -> tuple[Joint, Fix | str] | None:
     """Return the joint of a base_footprint on the wrong side of the base, and its fix.
 
-    The sign of its joint is wrong, or parent and child are exchanged: the frame that
-    navigation moves tells which, because it is the root.
+    Either the sign of its joint is wrong, or parent and child are exchanged. The frame
+    that navigation moves decides, because it must be the root.
     """
     robot = subject.robot
     joint = next(
@@ -127,8 +128,8 @@ def _one_wheel(
 def _gap(joint: Joint, link: Link, T_footprint_link: PlainPose) -> float | None:
     """Height of a wheel's lowest point [m]; 0 when it touches the floor.
 
-    A wheel turns without end about a level axis, and is a sphere or a cylinder
-    about that axis. Other links, and wheels that are meshes, give None.
+    A wheel turns without limit about a level axis, and is a sphere or a cylinder about
+    that axis. Other links, and wheels that are meshes, give None.
     """
     if not joint.endless or is_rotor(joint):
         return None

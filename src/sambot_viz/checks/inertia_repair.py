@@ -1,4 +1,4 @@
-"""The one number of an inertia that was meant to be another, where that is certain."""
+"""Correct the only wrong number of an inertia, where it is certain."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ IsBody = Callable[[Inertial], bool]
 
 
 def repaired(link: Link, is_body: IsBody) -> Fix | None:
-    """Return the fix for a mass or an inertia that no body has; None for an unsure one.
+    """Return the fix for a mass or an inertia that no body has; None if uncertain.
 
-    A sign that is too much is deleted, a moment and a product that are exchanged change
-    places, and the only moment that is not that of the shape becomes that.
+    The fix deletes a superfluous sign, exchanges a moment and a product, or replaces
+    the only moment that differs from the moment of the shape.
 
     Args:
         link: the link, with its inertia.
-        is_body: tells whether a real body can have one.
+        is_body: returns whether a real body can have an inertia.
     """
     inertial = link.inertial
     place = inertial.place if inertial is not None else None
@@ -57,7 +57,7 @@ def repaired(link: Link, is_body: IsBody) -> Fix | None:
 
 
 def _candidates(link: Link, inertial: Inertial) -> list[Mapping[str, float]]:
-    """Return changes that may be meant, the likeliest first."""
+    """Return possible changes, the likeliest first."""
     found: list[Mapping[str, float]] = []
     negative = [n for n in ("mass", *_MOMENTS) if getattr(inertial, n) < 0]
     if negative:

@@ -1,4 +1,4 @@
-"""Python files are read without running them."""
+"""Read Python files without running them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import warnings
 
 
 def parse_python(text: str | bytes) -> ast.Module | None:
-    """Read Python without running it; None when it is none."""
+    """Read Python without running it; None for other text."""
     try:
         with warnings.catch_warnings():
             # Python warns of odd escapes in the file, on the terminal of the user.
@@ -18,7 +18,7 @@ def parse_python(text: str | bytes) -> ast.Module | None:
 
 
 def call_name(function: ast.expr) -> str:
-    """Return the name of what is called: "Node" in ``actions.Node(…)``."""
+    """Return the name of the called object: "Node" in ``actions.Node(…)``."""
     if isinstance(function, ast.Attribute):
         return function.attr
     return function.id if isinstance(function, ast.Name) else ""

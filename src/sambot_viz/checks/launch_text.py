@@ -1,8 +1,8 @@
-"""Text in a model that stops ``ros2 launch``.
+"""Find text in a model that stops ``ros2 launch``.
 
-A launch file that passes Command([…]) straight as robot_description has the whole text
-read as YAML. xacro keeps comments, so a harmless "TODO: …" is enough to stop it. The
-rule says nothing unless a launch file of the robot does so.
+If a launch file passes Command([…]) directly as robot_description, launch reads the
+whole text as YAML. xacro keeps comments, so a harmless "TODO: …" is enough to stop it.
+The rule reports nothing unless a launch file of the robot does so.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ _SHORTEST_WORDS = 4
 
 
 def launch_text_as_yaml(subject: Subject) -> Iterator[Problem]:
-    """Find the first text that YAML cannot read where a launch file makes it YAML."""
+    """Find the first text that YAML cannot read, where launch reads it as YAML."""
     # xacro writes its own line breaks and indentation between tags.
     model_text = _BETWEEN_TAGS.sub(">\n<", subject.robot.description)
     trap = _TRAP.search(model_text)
-    # Launch files are only looked for where one could have trouble: most have none.
+    # Search launch files only for a text that could stop one: most models have none.
     if trap is None or not subject.files:
         return
     model = Path(subject.files[0])
@@ -49,10 +49,10 @@ def launch_text_as_yaml(subject: Subject) -> Iterator[Problem]:
 
 
 def _bare_launch_files(subject: Subject, model: Path) -> Iterator[tuple[str, int]]:
-    """Give launch files with a bare Command, by name, and the line of it.
+    """Yield launch files with a bare Command, by name, and its line.
 
-    Without a package, those beside the model and beside the folder of the model count.
-    A Command that names other models is left out.
+    Without a package, launch files beside the model and beside its folder count. A
+    Command that names other models does not.
     """
     from sambot_viz.checks.around.workspace import Package
 
@@ -72,7 +72,7 @@ def bare_commands(tree: ast.Module, model: str) -> list[int]:
 
     Args:
         tree: the launch file.
-        model: the name of the model's file; a Command that names others is left out.
+        model: the name of the model's file; a Command that names others does not count.
     """
     values: dict[str, ast.expr] = {}
     found: list[ast.expr] = []
@@ -124,8 +124,8 @@ def _text_around(urdf: str, at: int) -> str:
 
 
 def _is_text_in_yaml(text: str) -> bool:
-    """Return whether YAML reads it as one plain text, as launch then does."""
-    # The import is late: few models come this far.
+    """Return whether YAML, and so launch, reads it as one plain text."""
+    # Import late: few models come this far.
     import yaml
 
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)

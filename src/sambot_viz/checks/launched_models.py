@@ -1,4 +1,4 @@
-"""A model with the arguments that launch files give to xacro for it."""
+"""Load a model with the xacro arguments of launch files."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ _OF_ARGUMENTS = ("xacro-argument", "xacro-include", "xacro-package", "xacro-yaml
 
 
 def launched(target: CheckedModel) -> tuple[dict[str, str], ...]:
-    """Return what launch files give for a model: first all of them, then single ones.
+    """Return arguments of launch files for a model: first of all, then of single ones.
 
     See `launched_arguments`.
     """
     if not target.packages or not target.model.name.endswith((".xacro", ".urdf")):
         return ({},)
-    # The import is late: many models are in no package.
+    # Import late: many models have no package.
     from sambot_viz.checks.around.xacro_arguments import launched_arguments
 
     return launched_arguments(target.model, target.packages)
@@ -34,21 +34,21 @@ def load_launched(
     launched: Mapping[str, str],
     given: Mapping[str, str],
 ) -> Robot:
-    """Load a model with the arguments of launch files, where they are known.
+    """Load a model with the known arguments of launch files.
 
-    Where xacro refuses it, with what they may be.
+    Where xacro refuses it, load it with their possible values.
 
     Args:
         load: `load_robot` for the model.
         target: the model, with its packages.
-        launched: what all launch files give.
-        given: what the user gives.
+        launched: the arguments that all launch files give.
+        given: the arguments that the user gives.
 
     Raises:
         RobotError: as `load_robot`.
     """
     if launched.keys() - given.keys():
-        # What is worked out from a launch file may be wrong.
+        # A value inferred from a launch file may be wrong.
         with suppress(RobotError):
             return load(xacro_args={**launched, **given})
     try:
@@ -56,7 +56,7 @@ def load_launched(
     except RobotError as error:
         if not any(p.code.startswith("xacro-") for p in error.problems):
             raise
-        # The import is late: most models need no arguments.
+        # Import late: most models need no arguments.
         from sambot_viz.checks.around.xacro_arguments import xacro_arguments
 
         first = error
@@ -75,13 +75,13 @@ def wrong_variants(
     given: Mapping[str, str],
     known: Sequence[Problem],
 ) -> list[Problem]:
-    """Return what is wrong only with the arguments that single launch files give.
+    """Return the problems that only arguments of single launch files cause.
 
     Args:
         load: `load_robot` for the model.
         target: the model.
-        variants: what these launch files give.
-        given: what the user gives, who then asks for no other variant.
+        variants: the arguments of these launch files.
+        given: the arguments that the user gives; with them no variant counts.
         known: the problems of the model itself.
     """
     found: list[Problem] = []

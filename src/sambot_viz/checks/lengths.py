@@ -1,4 +1,4 @@
-"""Robots as large as houses, whose lengths are in millimetres or centimetres."""
+"""Report robots as large as houses: their lengths are in millimetres or centimetres."""
 
 from __future__ import annotations
 
@@ -44,13 +44,13 @@ _APART = 5.0
 
 
 class _Lengths(NamedTuple):
-    """In which unit the lengths of a robot are.
+    """The unit of the lengths of a robot.
 
     Attributes:
         unit: its name.
-        metres: how many metres it is.
+        metres: the length of one unit [m].
         size: the longest side of the largest shape [m], once it is in metres.
-        origins: the origins are in that unit too.
+        origins: the origins also have that unit.
     """
 
     unit: str
@@ -59,7 +59,7 @@ class _Lengths(NamedTuple):
     origins: bool
 
     def has(self, geometry: Geometry) -> bool:
-        """Return whether a shape is in that unit."""
+        """Return whether a shape has that unit."""
         if isinstance(geometry, MeshFile):
             return False
         longest, shortest = _sides(geometry)
@@ -68,9 +68,10 @@ class _Lengths(NamedTuple):
 
 
 def lengths_in_another_unit(subject: Subject) -> Iterator[Problem]:
-    """Report shapes that are as large as a house on all sides, and those like them.
+    """Report shapes as large as a house on all sides, and similar ones.
 
-    One finding for those of the same size. Floors and walls are thin.
+    Shapes of the same size give one finding. Floors and walls are thin, so they do not
+    count.
     """
     lengths = _lengths_of(subject.robot)
     if lengths is None:
@@ -105,7 +106,7 @@ def lengths_in_another_unit(subject: Subject) -> Iterator[Problem]:
 
 
 def _clues(robot: Robot, lengths: _Lengths) -> Clues:
-    """Return what speaks for another unit: floors and halls neither move nor weigh."""
+    """Return the clues for another unit: floors and halls neither move nor weigh."""
     clues = {"size"}
     if any(joint.movable for joint in robot.joints.values()):
         clues.add("moving parts")
@@ -166,7 +167,7 @@ def is_lighter_than_foam(link: Link) -> bool:
 
 
 def _lengths_of(robot: Robot) -> _Lengths | None:
-    """Return the unit of a robot with a shape like a house; None for others."""
+    """Return the unit of a robot with a shape as large as a house; None for others."""
     largest = 0.0
     for shape in shapes_of(robot):
         if not isinstance(shape.geometry, MeshFile):
@@ -195,7 +196,7 @@ def _sides(geometry: Geometry) -> tuple[float, float]:
 
 
 def written_lengths(geometry: Geometry) -> tuple[str, tuple[float, ...]]:
-    """Return what the numbers of a shape are, and the numbers."""
+    """Return the name of a shape's numbers, and the numbers."""
     return _NUMBERS[type(geometry)], written_sizes(geometry)
 
 

@@ -1,4 +1,4 @@
-"""Links that are heavier than any metal: their mass is in grams."""
+"""Report links that are heavier than any metal: their mass is in grams."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def masses_in_grams(subject: Subject) -> Iterator[Problem]:
     }
     if sum(dense.values()) <= _TIMES * (sum(masses.values()) - sum(dense.values())):
         return
-    # A mass with its unit is read without it, and that is the finding.
+    # The reader drops the unit of a mass, and another rule reports that.
     cut = [p.message for p in subject.robot.problems if p.code == "sdf-number-cut-off"]
     for name, mass in dense.items():
         if any(f"of link {name}:" in message for message in cut):
@@ -55,7 +55,7 @@ def masses_in_grams(subject: Subject) -> Iterator[Problem]:
 
 
 def _clues(link: Link, mass: float, others: bool) -> Clues:
-    """Return what speaks for grams; a placeholder has any shape and any mass."""
+    """Return the clues for grams; a placeholder has any shape and any mass."""
     clues = {"density"}
     sides = [
         abs(value)

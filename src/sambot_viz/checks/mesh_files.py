@@ -1,4 +1,4 @@
-"""Mesh files that cannot be drawn, or a thousand times too large or too small."""
+"""Report undrawable mesh files, and those a thousand times too large or small."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ class MeshFiles:
         roots: Sequence[Path] | None = None,
         longest: float = limits.CHECKED_TIME.value,
     ) -> None:
-        """Prepare.
+        """Set the limits for reading.
 
         Args:
-            roots: the folders that files may be in; None for no limit.
-            longest: files that are asked for later than this [s] are not read.
+            roots: the only folders for files; None for no limit.
+            longest: the time [s] after which it reads no more files.
         """
         self._roots = roots
         self._read: dict[Path, Mesh | Problem | None] = {}
@@ -51,7 +51,7 @@ class MeshFiles:
         self._spent = 0.0
 
     def __call__(self, path: Path) -> Mesh | Problem | None:
-        """The mesh, why it cannot be drawn, or None when it was not read."""
+        """Return the mesh, why RViz cannot draw it, or None for an unread one."""
         if path not in self._read:
             start = time.perf_counter()
             self._read[path] = self._open(path)
@@ -79,7 +79,7 @@ def _is_large(path: Path) -> bool:
 
 
 def _meshes_of(subject: Subject) -> Iterator[tuple[Link, Shape, MeshFile, Path]]:
-    """The shapes that are meshes and whose file was found, with their links."""
+    """The mesh shapes with an existing file, with their links."""
     for link, shape in subject.shapes():
         mesh = shape.geometry
         if isinstance(mesh, MeshFile) and mesh.path is not None:
@@ -143,11 +143,11 @@ def _invisible(link: Link, shape: Shape, path: Path) -> Problem:
 
 
 def _severity(problem: Problem) -> Severity:
-    """The severity that a problem of a mesh has for the model."""
+    """The severity of a mesh problem for the model."""
     if problem.code == "mesh-lfs-pointer":
         # The model is fine; the clone lacks its large files.
         return "warning"
-    # What is not an error is drawn, as RViz draws it.
+    # A mesh without an error is drawable, as in RViz.
     return "error" if problem.severity == "error" else "info"
 
 
@@ -163,9 +163,9 @@ def _not_read(paths: Sequence[Path], why: str) -> Problem:
 
 
 def meshes_of_wrong_size(subject: Subject) -> Iterator[Problem]:
-    """Meshes drawn in millimetres, one finding for those with the same scale.
+    """Report meshes in millimetres, with one finding for each scale.
 
-    Only formats without a unit are judged: in the others a wrong unit is written down.
+    Only formats without a unit count: the others name a wrong unit in the file.
     """
     seen: set[tuple[Path, Vector3]] = set()
     wrong: dict[tuple[str, str], list[tuple[str, str, float]]] = {}
@@ -198,7 +198,7 @@ def meshes_of_wrong_size(subject: Subject) -> Iterator[Problem]:
 
 
 def _clues(robot: Robot, size: float) -> Clues:
-    """Return what speaks for another unit: no joint of a robot is as far away."""
+    """Return the clues for another unit: no joint of a robot is as far away."""
     clues = {"size"}
     if size > _NONSENSE or size < _TOO_SMALL:
         clues.add("scale")
@@ -220,7 +220,7 @@ def _longest_side(subject: Subject, mesh: MeshFile, path: Path) -> float | None:
 
 
 def _advice(size: float, scale: Vector3, language: Language) -> tuple[str, str] | None:
-    """Say what is probably wrong, and what to do about it."""
+    """Name the probable fault, and what to do about it."""
     if size > _NONSENSE:
         return (
             "has coordinates that make no sense",

@@ -1,4 +1,4 @@
-"""The rules about a model, in order; what follows from another finding is left out."""
+"""Run the rules about a model in order, and drop consequences of other findings."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 
 
 def lengths_not_in_metres(subject: Subject) -> list[Problem]:
-    """Report one length that is out of proportion, else all that are in one unit."""
+    """Report one length that is out of proportion, else all lengths in a wrong unit."""
     off = list(lengths_out_of_proportion(subject))
     return off or list(lengths_in_another_unit(subject))
 
@@ -110,7 +110,7 @@ def subject_of(
     mesh: Callable[[Path], Mesh | Problem | None] | None = None,
     packages: tuple[Package, ...] = (),
 ) -> Subject:
-    """Return what rules are given; see `check_robot`."""
+    """Return the input of rules; see `check_robot`."""
     files = [str(file) for file in robot.files]
     if path is not None and Path(path).is_file():
         files[:1] = [os.fspath(path)]
@@ -118,7 +118,7 @@ def subject_of(
 
 
 def find_problems(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
-    """Run rules; what follows from another finding is left out."""
+    """Run rules, and drop consequences of other findings."""
 
     def look(other: Subject) -> list[Problem]:
         return [problem for rule in rules for problem in rule(other)]
@@ -135,7 +135,7 @@ def find_problems(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
 def in_order(problems: Sequence[Problem]) -> list[Problem]:
     """Return each problem once: errors first, then in the order of the file.
 
-    What is said of one element with the same advice is what a macro repeats.
+    Findings at one element with the same advice come from repeated calls of a macro.
     """
     once: dict[object, Problem] = {}
     for problem in problems:

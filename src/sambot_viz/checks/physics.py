@@ -1,4 +1,4 @@
-"""What KDL or a simulator complains about: masses, inertias, wheels off the ground."""
+"""Report masses, inertias and wheels that KDL or a simulator refuses."""
 
 from __future__ import annotations
 
@@ -16,12 +16,15 @@ from sambot_viz.robot.parts import Inertial
 
 
 def inertia_on_root(subject: Subject) -> Iterator[Problem]:
-    """KDL, which robot_state_publisher uses, cannot give the root link an inertia."""
+    """Report an inertia of the root link, which KDL ignores.
+
+    robot_state_publisher uses KDL.
+    """
     root = subject.robot.links[subject.robot.root]
     if root.inertial is None or len(subject.robot.links) == 1:
         return
     if subject.robot.language == "sdf":
-        # There every link has one, and the tutorial says not to mind the warning.
+        # There every link has one, and the tutorial tells users to ignore the warning.
         return
     yield Problem.at(
         root.inertial.place or root.place,
@@ -63,7 +66,7 @@ def missing_inertia(subject: Subject) -> Iterator[Problem]:
 
 
 def impossible_inertia(subject: Subject) -> Iterator[Problem]:
-    """Report a mass or inertia that no real body has; calls of one macro together."""
+    """Report a mass or inertia that no real body has, once for calls of one macro."""
     found: dict[Place | None, list[tuple[str, Place | None]]] = {}
     reasons: dict[Place | None, tuple[str, str | Fix]] = {}
     for link in subject.robot.links.values():
@@ -123,7 +126,7 @@ def _why_impossible(inertial: Inertial) -> tuple[str, str] | None:
 
 
 def _why_no_tensor(inertial: Inertial) -> str:
-    """Say why no real body has these six numbers, or "" (tolerances of 1 %)."""
+    """Return why no real body has these six numbers, or "" (tolerances of 1 %)."""
     diagonal = (inertial.ixx, inertial.iyy, inertial.izz)
     if not all(map(math.isfinite, (*diagonal, *_products(inertial)))):
         return "the inertia is not a finite number"
@@ -145,7 +148,7 @@ def _principal_moments(inertial: Inertial) -> Vector3:
     They are the roots of its characteristic polynomial, by the cosine of three angles.
     """
     diagonal, products = (inertial.ixx, inertial.iyy, inertial.izz), _products(inertial)
-    # As shares of the largest: squares of the least and of the greatest are none.
+    # Divide by the largest: squares of very small or large numbers would be 0 or inf.
     size = max(map(abs, (*diagonal, *products)))
     if not size:
         return ORIGIN

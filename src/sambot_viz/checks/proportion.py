@@ -1,4 +1,4 @@
-"""One length of many that is far larger than all others: it is not in metres."""
+"""Report one length that is far larger than all others: it is not in metres."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ class _Written(NamedTuple):
     """Numbers of one element.
 
     Attributes:
-        what: whose they are, as a sentence says it.
-        values: as they are in the model [m].
+        what: their owner, as part of a sentence.
+        values: the numbers in the model [m].
         place: of the element.
-        advice: where they are written, as its advice ends.
-        carries: they are of a part that carries others, and may be the largest.
-        link: whose shape it is; "" for a place.
+        advice: the place of the numbers, as the end of the advice.
+        carries: they belong to a part that carries others, and may be the largest.
+        link: the link of the shape; "" for an origin.
     """
 
     what: str
@@ -71,7 +71,7 @@ class _Written(NamedTuple):
 def lengths_out_of_proportion(subject: Subject) -> Iterator[Problem]:
     """Report lengths that are many times larger than all others of the robot.
 
-    One finding for the property that they come from, else one for each element.
+    Each property gives one finding, and so does each element without one.
     """
     robot = subject.robot
     elements = list(_elements(robot))
@@ -109,13 +109,13 @@ def _elements(robot: Robot) -> Iterator[_Written]:
                 yield _Written(what, values, place, carries=carries, link=link.name)
             yield _origin(f"link {link.name}: the place of a shape", shape, robot)
     for joint in robot.joints.values():
-        # Where the robot stands in a map is no part of it.
+        # The position of the robot in a map is not a length of the robot.
         if all(_has_shapes(robot, name) for name in (joint.parent, joint.child)):
             yield _origin(f"the place of joint {joint.name}", joint, robot)
 
 
 def _is_plane(shape: Shape) -> bool:
-    """Return whether a shape is a ground or a wall, which has hardly any thickness."""
+    """Return whether a shape is a floor or a wall, with hardly any thickness."""
     box = shape.geometry
     return isinstance(box, Box) and min(box.size) < _THIN * max(box.size)
 
@@ -142,7 +142,7 @@ def _origin(what: str, of: Shape | Joint, robot: Robot) -> _Written:
 
 
 def _largest_usual(elements: Sequence[_Written], robot: Robot) -> float | None:
-    """Return the largest length below the gap [m]; None when there is no gap."""
+    """Return the largest length below the gap [m]; None without a gap."""
     meshes = any(
         isinstance(shape.geometry, MeshFile)
         for link in robot.links.values()
@@ -198,7 +198,7 @@ def _properties(
 
 
 def _names(files: SourceSet, place: Place | None, name: str) -> bool:
-    """Return whether an element, or one in it, is written with a property."""
+    """Return whether an element, or one inside, uses a property."""
     source = None if place is None else files.get(place.file)
     if source is None or place is None:
         return False
@@ -257,7 +257,7 @@ def _in_metres(
 def _clues(
     robot: Robot, element: _Written, length: float, factor: float, small: Set[float]
 ) -> Clues:
-    """Return what speaks for another unit, beside the size."""
+    """Return the clues for another unit, except the size."""
     clues = {"size"}
     if length >= _WHOLE and is_written_whole(length):
         clues.add("whole number")
@@ -279,7 +279,7 @@ def _unit(element: _Written, length: float, usual: float) -> tuple[str, float]:
 def _is_certain(
     clues: Clues, element: _Written, length: float, usual: float, small: Set[float]
 ) -> bool:
-    """Tell whether only one unit gives a length like the others of the robot."""
+    """Return whether only one unit makes a length similar to those of the robot."""
     most = _CARRIES * usual if element.carries else usual
     least = min(small, default=0.0)
     fitting = [f for f in UNITS.values() if least <= length * f <= most]

@@ -1,4 +1,4 @@
-"""Edits of numbers where they are written: in an element, a property, a call."""
+"""Edit numbers at their source: in an element, a property or a call."""
 
 from __future__ import annotations
 
@@ -25,22 +25,22 @@ class Rewriting:
 
     Attributes:
         files: those of the model.
-        change: what becomes of a number.
+        change: returns the new value of a number.
     """
 
     files: Sequence[str]
     change: Change
 
     def attributes(self, place: Place | None, *names: str, most: int = 9) -> list[Edit]:
-        """Return the edits of attributes, or of elements inside that have their names.
+        """Return the edits of attributes, or of child elements with these names.
 
         Args:
-            place: where the element begins.
+            place: the beginning of the element.
             names: the attributes; "" for the text of the element itself.
-            most: how many numbers of a list are changed.
+            most: the greatest number of values to change in a list.
 
         Returns:
-            Those of the numbers that are written; what is computed has none.
+            The edits of literal numbers; computed ones have none.
         """
         source = None if place is None else source_of(place.file)
         tag = (
@@ -90,7 +90,7 @@ class Rewriting:
 
 
 def _given(source: SourceFile, tag: Tag, by: str, name: str) -> Extent | None:
-    """Return where a tag gives a value to a property or to a macro's parameter."""
+    """Return the place where a tag sets a property or a macro's parameter."""
     if source.text[tag.name.start : tag.name.end] != by:
         return None
     if by != "xacro:property":
@@ -101,7 +101,7 @@ def _given(source: SourceFile, tag: Tag, by: str, name: str) -> Extent | None:
 
 
 def _macro_around(source: SourceFile, offset: int) -> tuple[str, list[str]]:
-    """Return the name of the macro in which an offset is, and its parameters."""
+    """Return the name of the macro around an offset, and its parameters."""
     start = source.text.rfind("<xacro:macro", 0, offset)
     tag = source.tag(start) if start >= 0 else None
     if tag is None or source.text.find("</xacro:macro>", start, offset) >= 0:

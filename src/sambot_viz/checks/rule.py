@@ -1,4 +1,4 @@
-"""The input of a rule, and text helpers that several rules use.
+"""Define the input of a rule, and text helpers of several rules.
 
 A rule is a function, and one line in `RULES`. It only reads the robot, its mesh
 files, and the text it came from.
@@ -22,16 +22,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """A robot that is checked.
+    """The robot that a rule checks.
 
     Attributes:
         robot: the robot.
-        files: the files it was read from, as the user would write them, the model
-            first; empty for a model given as text.
-        mesh: reads a mesh file; a Problem says why it cannot be drawn, None that it
-            was not read.
-        packages: those that belong to the robot, that of the model first.
-        edited: edits → the same with the robot as these make it, once that was read.
+        files: its source files, as the user would write them, the model first; empty
+            for a model from text.
+        mesh: reads a mesh file; returns a Problem for one that RViz cannot draw, and
+            None for an unread one.
+        packages: the packages of the robot, the model's first.
+        edited: edits → the subject with the edited robot, as a cache.
     """
 
     robot: Robot
@@ -43,7 +43,7 @@ class Subject:
     )
 
     def shapes(self) -> Iterator[tuple[Link, Shape]]:
-        """Give the visuals and collisions of all links, each with its link."""
+        """Yield the visuals and collisions of all links, each with its link."""
         for link in self.robot.links.values():
             for shape in (*link.visuals, *link.collisions):
                 yield link, shape

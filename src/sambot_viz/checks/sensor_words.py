@@ -1,4 +1,4 @@
-"""Elements and words for Gazebo that it does not know, as it says them itself.
+"""Report elements and words that Gazebo does not know.
 
 ROS does not read them, and Gazebo leaves out what it does not know.
 """
@@ -35,14 +35,14 @@ _BESIDE = frozenset({"gz_frame_id", "ignition_frame_id"})
 
 @cache
 def _in_gazebo() -> ElementType:
-    """Return what may be in a <gazebo> of URDF."""
+    """Return the possible elements in a <gazebo> of URDF."""
     words = vocabulary("gazebo_elements")
     inside = {word: ElementType(word, Values(), {}) for word in words}
     return ElementType("gazebo", Values(), {}, inside)
 
 
 def gazebo_words(subject: Subject) -> Iterator[Problem]:
-    """Report elements of <gazebo> in other letters."""
+    """Report misspelt elements of <gazebo>."""
     for part in subject.robot.gazebo if subject.robot.language == "urdf" else ():
         if part.tag == "gazebo":
             yield from _misspelt(part, _in_gazebo(), part)
@@ -50,7 +50,7 @@ def gazebo_words(subject: Subject) -> Iterator[Problem]:
 
 
 def sensor_words(subject: Subject) -> Iterator[Problem]:
-    """Report elements of sensors in other letters, and words that are no choice."""
+    """Report misspelt elements of sensors, and words that are not a valid choice."""
     known = model_type().children["link"].children["sensor"]
     for part in subject.robot.gazebo:
         for sensor in part.find_all("sensor"):
@@ -59,7 +59,7 @@ def sensor_words(subject: Subject) -> Iterator[Problem]:
                 element, kind = stack.pop()
                 yield from _misspelt(element, kind, sensor)
                 if subject.robot.language == "urdf":
-                    # In SDF ROS itself refuses such a word.
+                    # ROS itself refuses such a word in SDF.
                     yield from _unfit_text(element, kind, sensor)
                 yield from _negative(element, kind, sensor)
                 stack += [
@@ -70,7 +70,7 @@ def sensor_words(subject: Subject) -> Iterator[Problem]:
 
 
 def _colours(part: Element) -> Iterator[Problem]:
-    """Report a colour that is almost one of Gazebo Classic's."""
+    """Report a misspelt colour of Gazebo Classic."""
     known = [f"Gazebo/{colour}" for colour in vocabulary("gazebo_materials")]
     for material in part.find_all("material"):
         said = material.text.strip()
@@ -139,7 +139,7 @@ def _negative(
 def _unfit_text(
     element: Element, kind: ElementType, sensor: Element
 ) -> Iterator[Problem]:
-    """Report a text that is no number, no word or nothing that Gazebo reads."""
+    """Report a text that Gazebo cannot read as the number or word that it needs."""
     fault = value_fault(element, kind.text)
     if fault is None or (element.tag in _ANGLES and "more than" in fault.reason):
         return

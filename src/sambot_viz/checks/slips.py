@@ -1,4 +1,4 @@
-"""Names and values that ROS accepts and that are rarely meant."""
+"""Report names and values that ROS accepts and that are rarely intended."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def limits_in_degrees(subject: Subject) -> Iterator[Problem]:
 
 
 def _clues(angles: Iterable[float], in_radians: Iterable[float] = ()) -> Clues:
-    """Return what speaks for degrees, beside numbers that are too large."""
+    """Return the clues for degrees, except too large numbers."""
     clues = {"size"}
     if all(map(usual_degrees, angles)):
         clues.add("usual degrees")

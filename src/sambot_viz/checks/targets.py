@@ -1,7 +1,8 @@
-"""Which models a check is about, and which packages belong to each.
+"""Find the models of a check, and the packages that belong to each.
 
-A package without a model is about the one that its launch files start. Packages whose
-launch files use that of the model belong to it: they have its parameters.
+For a package without a model, the check takes the model that its launch files start. A
+package whose launch files use the model's package belongs to the model: it has its
+parameters.
 """
 
 from __future__ import annotations
@@ -44,14 +45,14 @@ _LAUNCHES = (
 
 
 class CheckedModel(NamedTuple):
-    """A model that is checked.
+    """A model to check.
 
     Attributes:
         model: as the user would write it.
         opened_by: the launch file that opens it, when the user named only that
             package; else empty.
-        packages: those that belong to it, its own first.
-        is_main: it is what its package is about, and not one of several models.
+        packages: the packages that belong to it, its own first.
+        is_main: it is the main model of its package, not one of several.
     """
 
     model: Path
@@ -61,12 +62,12 @@ class CheckedModel(NamedTuple):
 
 
 class Targets(NamedTuple):
-    """What is checked.
+    """The models and packages to check.
 
     Attributes:
         models: the models.
         packages: the packages, with or without a model, each once.
-        notes: say what is checked without a model.
+        notes: name the packages that the check reads without a model.
     """
 
     models: tuple[CheckedModel, ...]
@@ -82,22 +83,22 @@ def find_targets(
     trusted: bool = True,
     read: set[Path] | None = None,
 ) -> Targets:
-    """Find what is to be checked.
+    """Find the models and packages to check.
 
     Args:
         path: a model, a package, or a folder of packages.
         package_path: as for `check`.
         workspace: as for `check`.
         trusted: as for `check`.
-        read: gets the files that are looked for.
+        read: receives the files that the check looks for.
 
     Raises:
-        UsageError: there is nothing to check, or it is not clear which model is meant.
+        UsageError: there is nothing to check, or the choice of the model is not clear.
     """
     is_folder = os.path.isdir(path)
     if not is_folder and package_around(path) is None:
         return Targets((CheckedModel(path),))
-    # The import is late: many models are in no package.
+    # Import late: many models have no package.
     from sambot_viz.checks.around.workspace import Workspace
 
     found = Workspace(
@@ -136,7 +137,7 @@ class _Start(NamedTuple):
 
 
 class _TargetSearch:
-    """Finds models and packages; what launch files start is worked out once."""
+    """Finds models and packages; follows each launch file once."""
 
     def __init__(self, workspace: Workspace, trusted: bool) -> None:
         self._workspace = workspace
@@ -193,14 +194,14 @@ class _TargetSearch:
         for file, start in self._robots(package).items():
             folder = package_around(start.file)
             home = None if folder is None else self._workspace.at(folder)
-            # Of a package that is installed, only the model counts.
+            # Only the model of an installed package counts.
             own = (home,) if home and self._workspace.named(home.name) is home else ()
             first = (*own, package, *start.through)
             together = self._together(file, tuple(dict.fromkeys(first)))
             yield CheckedModel(Path(shown(start.file)), start.launch, together)
 
     def _each_of(self, package: Package) -> Iterator[CheckedModel]:
-        """Yield all models of a package, when they are few and none may be a part."""
+        """Yield all models of a package, when they are few and none can be a part."""
         models = self._models_of(package)
         whole = all(model_ending(m.name) != ".xacro" for m in models)
         tests = any(is_for_tests(m.relative_to(package.folder)) for m in models)
@@ -217,11 +218,11 @@ class _TargetSearch:
         return self._own[package]
 
     def _together(self, model: Path, first: tuple[Package, ...]) -> tuple[Package, ...]:
-        """Return the packages that belong to a model: those that start it, and theirs.
+        """Return the packages of a model: those that start it, and those they use.
 
         Args:
             model: the file, resolved.
-            first: those that are known to belong to it, its own first.
+            first: packages that are known to belong to it, its own first.
         """
         found = list(first)
         pool = dict.fromkeys([*self._asked, *self._workspace.given])
@@ -238,7 +239,7 @@ class _TargetSearch:
     def _is_for(self, package: Package, model: Path, home: Package) -> bool:
         """Return whether the launch files of a package start this model, and no other.
 
-        Which one they start may not be known, where the package has only this.
+        The started model may be unknown where the package has only this one.
         """
         started = self._robots(package)
         if started or self._workspace.is_chosen(package):
@@ -247,9 +248,9 @@ class _TargetSearch:
         return only and home.name in package.uses
 
     def _robots(self, package: Package) -> dict[Path, _Start]:
-        """Return what its launch files start, by the resolved files; URDF before SDF.
+        """Return the models that its launch files start, by file; URDF before SDF.
 
-        Robots in SDF beside those are what else is put into the world.
+        SDF robots beside URDF robots are other objects in the world.
         """
         if package not in self._started:
             found = self._follow(package) if self._trusted else {}
@@ -304,7 +305,7 @@ def _joined(before: CheckedModel | None, now: CheckedModel) -> CheckedModel:
 
 
 def _without_model(package: Package, models: Sequence[Path]) -> Problem:
-    """Say that the files of a package are checked without a robot."""
+    """Note that the check reads the files of a package without a robot."""
     if models:
         names = listed(str(m.relative_to(package.folder)) for m in models)
         message = f"several models are in the package ({names}), and no launch file "
@@ -322,7 +323,7 @@ def _without_model(package: Package, models: Sequence[Path]) -> Problem:
 
 
 def _without_models(packages: Sequence[Package], folder: Path) -> Problem:
-    """Say the same of all packages below a folder."""
+    """Note the same for all packages below a folder."""
     return Problem(
         "info",
         "package-without-model",

@@ -1,4 +1,4 @@
-"""Macros that are never called."""
+"""Report macros without a call."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ _EXPRESSION = re.compile(r"\$\{[^}]*\}")
 
 
 def unused_macros(subject: Subject) -> Iterator[Problem]:
-    """Report macros that are never called, and what is missing for that.
+    """Report macros without a call, and the elements missing because of that.
 
-    Only the main file is checked: a library may have more macros than a model needs.
+    Only the main file counts: a library may have more macros than a model needs.
     """
     massless = bool(links_without_mass(subject))
     for macro in _never_called(subject):
         name = macro.get("name")
         if massless and _makes_inertia(macro):
-            # The links without mass are reported with this macro.
+            # The finding of this macro includes the links without mass.
             continue
         yield Problem.at(
             macro.place,
@@ -38,7 +38,7 @@ def unused_macros(subject: Subject) -> Iterator[Problem]:
 def links_without_mass(subject: Subject) -> list[Link]:
     """Return the links below the root with a collision shape and no mass.
 
-    Gazebo makes one body of links that are fixed to each other.
+    Gazebo merges links that fixed joints connect into one body.
     """
     robot = subject.robot
     body = {name: name for name in robot.links}
@@ -57,7 +57,7 @@ def links_without_mass(subject: Subject) -> list[Link]:
 
 
 def unused_inertia(subject: Subject) -> Element | None:
-    """Return a macro that makes only an <inertial>, and that is never called."""
+    """Return a macro without a call that makes only an <inertial>."""
     return next(filter(_makes_inertia, _never_called(subject)), None)
 
 
@@ -66,7 +66,7 @@ def _makes_inertia(macro: Element) -> bool:
 
 
 def _missing(macro: Element) -> str:
-    """Say what a robot lacks: ", so its links and joints are missing"."""
+    """Name what a robot lacks: ", so its links and joints are missing"."""
     parts = {element.tag for element in macro.iter()}
     if not parts.isdisjoint({"link", "joint"}):
         return ", so its links and joints are missing"
@@ -100,7 +100,7 @@ def _macros(document: Element) -> list[Element]:
 
 
 def _called(document: Element, macros: list[str]) -> Iterator[str]:
-    """Names that are called, whatever namespace they are called through."""
+    """Names of called macros, whatever the namespace of the call."""
     for element in document.iter():
         prefix, _, name = element.tag.rpartition(":")
         if element.tag == "xacro:call":
@@ -109,5 +109,5 @@ def _called(document: Element, macros: list[str]) -> Iterator[str]:
             pattern = re.compile(".*".join(parts))
             yield from (macro for macro in macros if pattern.fullmatch(macro))
         elif prefix in ("", "xacro"):
-            # A call without its prefix is reported by the xacro reader.
+            # The xacro reader reports a call without its prefix.
             yield name.rpartition(".")[2]

@@ -1,4 +1,4 @@
-"""Lists of what other programs know, from the tables in vocabularies."""
+"""Read the words that other programs know from the tables in vocabularies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How much room links have, by their shapes."""
+"""Measure the volume of links by their shapes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from sambot_viz.robot.parts import Box, Capsule, Cylinder, Geometry, Link, Spher
 
 
 def volume_of(link: Link) -> float:
-    """Return how much room the shapes of a link have [m³]; inf when that is unknown."""
+    """Return the volume of the shapes of a link [m³]; inf when unknown."""
     shapes = link.collisions or link.visuals
     volumes = [volume_of_shape(shape.geometry) for shape in shapes]
     return sum(volumes) if volumes else math.inf

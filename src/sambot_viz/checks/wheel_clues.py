@@ -1,4 +1,4 @@
-"""What speaks for a joint that turns without end being that of a wheel."""
+"""Collect clues that a joint without limits is the joint of a wheel."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def is_rotor(joint: Joint) -> bool:
 
 
 def wheel_clues(robot: Robot, joint: Joint) -> Clues:
-    """Return what speaks for a wheel; nothing for a propeller."""
+    """Return the clues for a wheel; nothing for a propeller."""
     if is_rotor(joint):
         return frozenset()
     clues: set[str] = set()
@@ -45,7 +45,7 @@ def wheel_clues(robot: Robot, joint: Joint) -> Clues:
 
 
 def _has_twin(robot: Robot, joint: Joint) -> bool:
-    """Tell whether an equal link is on the other side, which turns without end too."""
+    """Return whether an equal link, also without limits, is on the other side."""
     x, y, z = robot.at_start[joint.child].position
     own = _geometries(robot, joint.child)
     return any(
@@ -67,19 +67,19 @@ def _geometries(robot: Robot, link: str) -> list[object]:
 
 
 def shapes_of(robot: Robot, link: str) -> tuple[Shape, ...]:
-    """Return what a link touches others with, else what is drawn of it."""
+    """Return the collision shapes of a link, else its visuals."""
     return robot.links[link].collisions or robot.links[link].visuals
 
 
 def _is_lowest(robot: Robot, link: str) -> bool:
-    """Return whether no other link reaches below a link; only for known shapes."""
+    """Return whether no other link reaches below a link, for known shapes only."""
     own = min(_lows(robot, link), default=None)
     others = [low for name in robot.links if name != link for low in _lows(robot, name)]
     return own is not None and len(others) > 0 and own < min(others) + _SAME
 
 
 def _lows(robot: Robot, link: str) -> Iterator[float]:
-    """Give the lowest height of each shape of a link that is not a mesh [m]."""
+    """Yield the lowest height of each shape of a link except meshes [m]."""
     T_root_link = robot.at_start[link]
     for shape in shapes_of(robot, link):
         T = T_root_link @ shape.origin.pose

@@ -1,4 +1,4 @@
-"""A wheel that differs from its twin on the other side in one thing."""
+"""Report a wheel that differs from its twin on the other side in one property."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _ALONG = 0.99
 
 
 class _Twins(NamedTuple):
-    """Two wheels whose names differ in the side: that of the left one is first."""
+    """Two wheels whose names differ only in the side, the left one first."""
 
     robot: Robot
     left: Joint
@@ -46,10 +46,10 @@ class _Twins(NamedTuple):
 
 
 def unlike_twins(subject: Subject) -> Iterator[Problem]:
-    """Report pairs of wheels of which one is turned, placed or made otherwise.
+    """Report pairs of wheels that differ in rotation, place or size.
 
-    The names of the pair say that they are twins; where all else is alike, what
-    differs is a slip. Which of the two is wrong is asked of other wheels.
+    The names show that the two are twins. Where everything else is equal, the
+    difference is a slip. Other wheels decide which of the two is wrong.
     """
     for twins in _pairs(subject.robot):
         found = [p for look in _LOOKS for p in look(twins)]
@@ -125,7 +125,7 @@ def _of_axes(twins: _Twins) -> Iterator[Problem]:
 
 
 def _with_axis(twins: _Twins, wrong: Joint, right: Joint) -> str:
-    """Say which axis turns a wheel as its twin turns."""
+    """Name the axis that turns a wheel as its twin turns."""
     T_wheel_root = twins.robot.at_start[wrong.child].inverse()
     xyz = _text(T_wheel_root.turned(twins.axis(right)))
     return f"write {axis_text(xyz, twins.robot.language)}"
@@ -136,9 +136,9 @@ def _largest(values: Vector3) -> int:
 
 
 def _turned(twins: _Twins, wrong: Joint, right: Joint) -> Iterator[Problem]:
-    """Report wheels that turn against each other, whose joints stand alike."""
+    """Report wheels that turn against each other, with equally oriented joints."""
     if wrong.origin.rpy != right.origin.rpy:
-        # Joints that are turned as well are often meant so.
+        # Joints that are also turned are often intended.
         return
     if twins.axis(wrong)[1] > 0 or twins.axis(right)[1] > 0:
         wrong, right = sorted((wrong, right), key=lambda joint: twins.axis(joint)[1])
@@ -157,7 +157,7 @@ def _of_places(twins: _Twins) -> Iterator[Problem]:
     reach = max(map(abs, (*one, *other)))
     mirrored = (other[0], -other[1], other[2])
     off = [abs(a - b) > _OFF * reach for a, b in zip(one, mirrored, strict=True)]
-    # Where both are on one side, the parent may have its origin at a corner.
+    # With both on one side, the parent may have its origin at a corner.
     if sum(off) != 1 or one[1] * other[1] >= 0:
         return
     at = off.index(True)
@@ -180,7 +180,7 @@ def _of_places(twins: _Twins) -> Iterator[Problem]:
 
 
 def _is_usual(twins: _Twins, joint: Joint, at: int) -> bool:
-    """Return whether a third wheel, or the drive, has a number too."""
+    """Return whether a third wheel or the drive also has a number."""
     value = abs(joint.origin.xyz[at])
     others = [
         abs(other.origin.xyz[at])
@@ -232,7 +232,7 @@ def _of_shapes(twins: _Twins, one: Shape, other: Shape) -> Problem | None:
 
 
 def _fits(twins: _Twins, joint: Joint, shape: Shape, radii: Sequence[float]) -> bool:
-    """Return whether a drive, or the other shapes of the link, say this size."""
+    """Return whether a drive or the other shapes of the link have this size."""
     link = twins.robot.links[joint.child]
     others = [s for s in (*link.visuals, *link.collisions) if s is not shape]
     radius = _size(shape).get("radius", 0.0)
@@ -252,7 +252,7 @@ def _size(shape: Shape) -> dict[str, float]:
 
 
 def _said(robot: Robot, what: str) -> list[float]:
-    """Return the numbers that the plugins of a robot say for its wheels [m]."""
+    """Return the numbers of the plugins of a robot for its wheels [m]."""
     found: list[float] = []
     for part in robot.gazebo:
         for element in part.iter():
@@ -265,7 +265,7 @@ def _said(robot: Robot, what: str) -> list[float]:
 
 
 def _odd(twins: _Twins, is_right: Callable[[Joint], bool]) -> tuple[Joint, Joint]:
-    """Return the wheel that is wrong, and its twin: where nothing tells, the later."""
+    """Return the wrong wheel and its twin; without a clue, the later one is wrong."""
     _, left, right = twins
     if is_right(left) != is_right(right):
         return (right, left) if is_right(left) else (left, right)

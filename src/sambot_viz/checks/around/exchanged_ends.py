@@ -1,4 +1,4 @@
-"""A joint whose parent and child are exchanged, so that a part became the root."""
+"""Report a joint with exchanged parent and child, which makes a part the root."""
 
 from __future__ import annotations
 

@@ -262,7 +262,7 @@ def _worlds(launch: LaunchFile, around: Surroundings) -> Iterator[tuple[str, Pla
 
 
 def misspelt_endings(around: Surroundings) -> Iterator[Problem]:
-    """Report the misspelt end of a file name."""
+    """Report a misspelt extension of a file name."""
     paths = [path for package in around.packages for path in package.paths]
     endings = {path.rpartition(".")[2] for path in paths}
     for launch in around.launches:

@@ -286,7 +286,7 @@ def _other_section(
 
 
 def _split_section(name: str, named: set[str], part: NodePart) -> Iterator[Problem]:
-    """Report lines whose indentation misses the section of a listed name."""
+    """Report lines in a misspelt section, beside the right one of a listed name."""
     for other, inner in part.sections.items():
         is_slip = other not in named and is_one_slip(other, name)
         if not is_slip or name not in part.sections or _DIGIT.search(name + other):

@@ -70,7 +70,7 @@ def _is_empty(node: yaml.Node) -> bool:
 
 
 def _beside(key: yaml.ScalarNode, below: yaml.ScalarNode, shown: str) -> Problem:
-    """Report keys beside an empty key that should be above them."""
+    """Report a key beside an empty key that should be above it."""
     place = place_of(below, shown)
     return Problem.at(
         place,

@@ -57,7 +57,7 @@ def wrong_values(around: Surroundings) -> Iterator[Problem]:
 
 
 def _exchanged(part: NodePart) -> dict[Parameter, list[Problem]]:
-    """Return each two lines with exchanged values, with their findings."""
+    """Return each pair of lines with exchanged values, with its finding."""
     found: dict[Parameter, list[Problem]] = {}
     for (one, first), (two, second) in pairwise(part.known()):
         kinds, types = (first.kind, second.kind), (type_of(one.written),)

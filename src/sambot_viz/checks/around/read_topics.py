@@ -1,4 +1,4 @@
-"""Topics that robot_localization and Nav2 read, against what is published in ROS."""
+"""Compare topics that robot_localization and Nav2 read with published topics."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Published(NamedTuple):
     Attributes:
         topic: its name, with its place.
         kind: its type, without the package.
-        what: who publishes it.
+        what: its publisher.
         is_simulated: it comes from Gazebo, not from a node that reads others.
     """
 
@@ -36,7 +36,7 @@ class Published(NamedTuple):
 
 
 class ReadTopic(NamedTuple):
-    """A topic that a node subscribes to since a parameter names it.
+    """A topic that a node subscribes to because a parameter names it.
 
     Attributes:
         node: the node.
@@ -55,7 +55,7 @@ class ReadTopic(NamedTuple):
 
 
 def unknown_topics(around: Surroundings) -> Iterator[Problem]:
-    """Report topics that are read under another name than they are published."""
+    """Report topics with different names at the publisher and the subscriber."""
     published = list(published_topics(around))
     used = used_topics(around)
     renamed = {u.end.message: p for p, u in _renamed(around, used, published)}
@@ -63,12 +63,12 @@ def unknown_topics(around: Surroundings) -> Iterator[Problem]:
     for one in used:
         name, kind = one.name, one.end.message
         if any(bare(p.topic.value) == name for p in published):
-            # It is there; whether its type is the right one is another question.
+            # The topic exists; another rule checks its type.
             continue
         known = {
             bare(p.topic.value): p
             for p in published
-            # What a node publishes itself it does not read.
+            # A node does not read its own topics.
             if p.kind == kind and p.what != one.reader
         }
         if not known or is_open(name) or name == _FILTERED or kind in _COMMANDS:
@@ -101,7 +101,7 @@ def _unknown(read: ReadTopic, source: Published) -> Problem:
 
 
 def _only(known: Mapping[str, Published], around: Surroundings) -> str | None:
-    """The one topic of a type, when nobody else can publish another."""
+    """The only topic of a type, when no other node can publish one."""
     alone = len(known) == 1 and around.simulates_only_known
     return next((k for k, p in known.items() if alone and p.is_simulated), None)
 
@@ -109,7 +109,7 @@ def _only(known: Mapping[str, Published], around: Surroundings) -> str | None:
 def _renamed(
     around: Surroundings, used: Sequence[ReadTopic], published: Sequence[Published]
 ) -> Iterator[tuple[Problem, ReadTopic]]:
-    """Entries of a bridge whose topic all read under its name in Gazebo."""
+    """Entries of a bridge whose topic all nodes read under its Gazebo name."""
     names = {bare(p.topic.value) for p in published}
     for entry in around.bridged:
         gz, ros = bare(entry.gz.value), entry.ros
@@ -135,7 +135,7 @@ def _renamed(
 
 
 def _of_a_node(around: Surroundings, topic: str) -> bool:
-    """True for a topic below the name of a node whose topics are not known."""
+    """True for a topic below the name of a node with unknown topics."""
     owner = topic.rpartition("/")[0]
     running = around.running.started
     if any(bare(node.path) == owner and node.endpoints_known for node in running):
@@ -155,7 +155,7 @@ def _same(one: ReadTopic, other: ReadTopic) -> bool:
 
 
 def meant_topic(name: str, known: Mapping[str, Published]) -> str | None:
-    """The topic that is meant: the same below another name, or a similar one."""
+    """The intended topic: the same one below another name, or a similar one."""
     last = name.rpartition("/")[2]
     same = [k for k in known if k.rpartition("/")[2] == last]
     below = [k for k in known if k.startswith(f"{name}/")]
@@ -163,10 +163,10 @@ def meant_topic(name: str, known: Mapping[str, Published]) -> str | None:
 
 
 def used_topics(around: Surroundings) -> list[ReadTopic]:
-    """Return the topics that nodes read since parameters name them.
+    """Return the topics that nodes read because parameters name them.
 
-    Where there are namespaces, only those of nodes that surely start in one, and of
-    types that no other node publishes.
+    With namespaces, return only those of nodes that surely start in one, and of types
+    that no other node publishes.
     """
     lost = {
         end.message
@@ -190,7 +190,7 @@ def _is_placed(around: Surroundings, node: RunningNode) -> bool:
 
 
 def published_topics(around: Surroundings) -> Iterator[Published]:
-    """Give the topics in ROS that nodes, bridges and plugins publish."""
+    """Yield the topics in ROS that nodes, bridges and plugins publish."""
     plugins = {plugin.filename for plugin in around.plugins}
     for node in around.running.started:
         what = node.path.strip("/")

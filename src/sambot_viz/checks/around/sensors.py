@@ -1,4 +1,4 @@
-"""Sensors that Gazebo leaves out, or that see something else than was meant."""
+"""Report sensors that Gazebo leaves out, or that do not measure as intended."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def sensors_without_link(robot: Robot) -> Iterator[Problem]:
         return
     for part in robot.gazebo:
         if part.tag != "gazebo":
-            # <ros2_control> has sensors of its own.
+            # <ros2_control> has a separate kind of sensor.
             continue
         name = part.get("reference")
         joint = robot.joints.get(name or "")
@@ -99,11 +99,11 @@ def _frame_of(robot: Robot, sensor: Element) -> str | None:
 
 
 def lidars_of_the_other(robot: Robot) -> Iterator[Problem]:
-    """Report lidars of a type that only the other Gazebo computes."""
+    """Report lidars of a type that only the other Gazebo simulates."""
     known = [each for each in plugins(robot.gazebo) if each.generation is not None]
     made_for = {plugin.generation: plugin for plugin in known}
     is_classic = "classic" in made_for
-    # A single one of Classic may be what is wrong itself.
+    # A single one of Classic may itself be the fault.
     if len(made_for) != 1 or (is_classic and len(known) == 1):
         return
     plugin = made_for["classic" if is_classic else "gz"]
@@ -124,7 +124,7 @@ def lidars_of_the_other(robot: Robot) -> Iterator[Problem]:
 
 
 def unknown_types(robot: Robot) -> Iterator[Problem]:
-    """Report types of sensors that are almost one of Gazebo's."""
+    """Report misspelt types of sensors."""
     known = vocabulary("sensor_types")
     parts = (part for part in robot.gazebo if part.tag == "gazebo")
     # A sensor of <ros2_control> has no type.
@@ -158,7 +158,7 @@ def unknown_types(robot: Robot) -> Iterator[Problem]:
 
 
 def sensors_twice(robot: Robot) -> Iterator[Problem]:
-    """Report a sensor that a link has twice under one name."""
+    """Report a second sensor of a link with the same name."""
     first: dict[tuple[str, str], Element] = {}
     for part in robot.gazebo:
         for sensor in part.find_all("sensor") if part.tag == "gazebo" else ():
@@ -176,7 +176,7 @@ def sensors_twice(robot: Robot) -> Iterator[Problem]:
 
 
 def _typeless(sensor: Element, known: Container[str]) -> Problem:
-    """Report a sensor without a type, or with the attribute in other letters."""
+    """Report a sensor without a type, or with a misspelt type attribute."""
     hint: str | Fix = 'add type="…" with the kind of sensor, such as gpu_lidar'
     for name, value in sensor.attributes.items():
         if value in known and name != "name":
@@ -196,7 +196,7 @@ def _words(kind: str) -> list[str]:
 
 
 def sensor_values(robot: Robot) -> Iterator[Problem]:
-    """Report angles of sensors in degrees, and limits that are exchanged."""
+    """Report angles of sensors in degrees, and exchanged limits."""
     for _, sensor in sensors(robot.gazebo):
         for element in sensor.iter():
             for fact in facts(element, *_ANGLES):
@@ -265,7 +265,7 @@ def _exchanged(sensor: Element, element: Element) -> Iterator[Problem]:
 
 
 def misspelt_frames(robot: Robot) -> Iterator[Problem]:
-    """Report a frame that is misspelt, or in an element that Gazebo does not read."""
+    """Report a misspelt frame, and a frame in an element that Gazebo does not read."""
     for _, sensor in sensors(robot.gazebo):
         for fact in facts(sensor, *SENSOR_FRAMES):
             near = [link for link in robot.links if is_one_slip(fact.value, link)]
@@ -325,7 +325,7 @@ def _related(parents: dict[str, str], one: str, other: str) -> bool:
 
 
 def _above(parents: dict[str, str], link: str) -> Iterator[str]:
-    # A model that is checked has no cycles.
+    # A model here has no cycles.
     while link in parents:
         link = parents[link]
         yield link

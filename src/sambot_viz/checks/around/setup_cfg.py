@@ -1,4 +1,4 @@
-"""setup.cfg: where programs of a Python package are installed."""
+"""Check setup.cfg: the installed place of programs of a Python package."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def programs_elsewhere(setup: SetupFile, around: Surroundings) -> Iterator[Probl
 
 
 def _used(around: Surroundings) -> bool:
-    """Tell whether a launch file of the package starts a program of it."""
+    """Return whether a launch file of the package starts a program of it."""
     return any(
         launch.text(call, "package") == around.files.name
         for launch in around.launches
@@ -88,7 +88,7 @@ def _used(around: Surroundings) -> bool:
 def _not_said(
     section: str, option: str, right: str, around: Surroundings, setup: SetupFile
 ) -> Problem:
-    """Report that programs are installed into bin, where only a shell finds them."""
+    """Report programs installed into bin, where only a shell finds them."""
     when = "" if section == "install" else " after colcon build --symlink-install"
     program = setup.place(setup.programs[0].node)
     text = around.files.text(_FILE)
@@ -106,7 +106,7 @@ def _not_said(
 
 
 def _written(section: str, option: str, right: str, text: str, file: str) -> Fix:
-    """Return the fix that gives an option to a section of setup.cfg."""
+    """Return the fix that adds an option to a section of setup.cfg."""
     hint = f"write {option}={right} below [{section}] in setup.cfg"
     headers: dict[str, int] = {}
     last = ""

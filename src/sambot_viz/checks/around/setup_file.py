@@ -1,4 +1,4 @@
-"""What a setup.py calls the package, installs and starts, found without running it."""
+"""Read the package name, files and programs in a setup.py without running it."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class DataFiles(NamedTuple):
 
     Attributes:
         node: its expression.
-        target: where the files go, below the prefix; None when it is not certain.
+        target: the installed folder below the prefix; None when uncertain.
         files: the files, relative to the package.
         paths: the expression of the files.
     """
@@ -67,7 +67,7 @@ class EntryPoint(NamedTuple):
     Attributes:
         name: the program.
         module: its module, with dots.
-        function: what is called in it.
+        function: the function of the module.
         node: its expression.
     """
 
@@ -85,7 +85,7 @@ class SetupFile:
         tree: the file, read as Python.
         shown: the path as the user would write it.
         folder: the package.
-        trusted: False does not look at the disk.
+        trusted: False keeps the rules from looking at the disk.
     """
 
     tree: ast.Module
@@ -94,7 +94,7 @@ class SetupFile:
     trusted: bool
 
     def place(self, node: ast.expr | None) -> Place:
-        """Return the place of an expression; None means that of setup( … )."""
+        """Return the place of an expression; None means the call of setup( … )."""
         at = node or self.call
         if at is None:
             return Place(self.shown, 1)
@@ -109,7 +109,7 @@ class SetupFile:
 
     @cached_property
     def call(self) -> ast.Call | None:
-        """The only call of setup; None when there is none, or more."""
+        """The only call of setup; None when there are none or several."""
         calls = [
             node
             for node in ast.walk(self.tree)
@@ -171,7 +171,7 @@ class SetupFile:
 
     @cached_property
     def not_files(self) -> tuple[tuple[DataFiles, ast.expr, str], ...]:
-        """What data_files lists and is not a file: entry, expression and path."""
+        """The paths in data_files that are not files: entry, expression and path."""
         listed = (
             (entry, node, path)
             for entry in (self.data_files if self.certain and self.trusted else ())
@@ -211,7 +211,7 @@ class SetupFile:
 
     @cached_property
     def programs(self) -> tuple[EntryPoint, ...]:
-        """The programs of console_scripts that are known."""
+        """The known programs of console_scripts."""
         matches = (
             (node, _ENTRY.fullmatch(text))
             for node, text in self.scripts.items
@@ -229,7 +229,7 @@ def read_setup(
 
 
 def _glob(folder: Path, call: Call) -> PythonValue:
-    """Return what a glob finds; None when that is not certain."""
+    """Return the files that a glob finds; None when uncertain."""
     pattern = LaunchTexts().text(call.text("pathname", 0, None))
     if pattern is None or os.path.isabs(pattern) or ".." in pattern.split("/"):
         return None

@@ -1,4 +1,4 @@
-"""What setup.py and setup.cfg name, and the package does not have."""
+"""Report files and programs in setup.py that the package does not have."""
 
 from __future__ import annotations
 
@@ -144,7 +144,7 @@ def missing_entry_points(setup: SetupFile, around: Surroundings) -> Iterator[Pro
 def _fault(
     program: EntryPoint, setup: SetupFile, around: Surroundings
 ) -> tuple[str, str] | None:
-    """What is wrong with a program, and what to write."""
+    """Return the fault of a program, and what to write."""
     path = program.module.replace(".", "/")
     files = (f"{path}.py", f"{path}/__init__.py")
     file = next((f for f in files if (around.files.folder / f).is_file()), None)

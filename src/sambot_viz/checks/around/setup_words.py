@@ -1,4 +1,4 @@
-"""Words and forms in setup.py that setuptools passes over, or that stop it."""
+"""Report words and forms in setup.py that setuptools ignores, or that stop it."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def misspelt_arguments(setup: SetupFile, around: Surroundings) -> Iterator[Probl
 
 
 def texts_for_lists(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
-    """Report entries of data_files whose files are one text and no list."""
+    """Report entries of data_files with one text in place of a list of files."""
     for value, _ in setup.values.items(setup.given("data_files")).items:
         pair = value.items if isinstance(value, Listing) else ()
         text, node = pair[1] if len(pair) == 2 else (None, None)
@@ -95,7 +95,7 @@ def _listed(node: ast.expr, text: str, setup: SetupFile) -> Fix:
 
 
 def malformed_entry_points(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
-    """Report programs whose text is not NAME = MODULE:FUNCTION, but nearly."""
+    """Report programs whose text is almost NAME = MODULE:FUNCTION."""
     for node, text in setup.scripts.items:
         meant = _meant(text, around) if text is not None else None
         if text is None or meant is None:
@@ -125,7 +125,7 @@ def malformed_entry_points(setup: SetupFile, around: Surroundings) -> Iterator[P
 
 
 def _meant(text: str, around: Surroundings) -> tuple[str, str, str] | None:
-    """Return program, module and function; None where the text says them, or none."""
+    """Return program, module and function; None for a right text or a different one."""
     match = _NEARLY.fullmatch(text)
     if match is None:
         return None
@@ -165,7 +165,7 @@ def quoted_names(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
 
 
 def loose_texts(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
-    """Report texts in data_files that are beside the pairs, and no files."""
+    """Report texts in data_files that are outside the pairs and not files."""
     for value, node in setup.values.items(setup.given("data_files")).items:
         if not isinstance(value, str) or (around.files.folder / value).is_file():
             continue

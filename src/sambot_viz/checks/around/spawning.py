@@ -1,4 +1,4 @@
-"""What a launch file tells the program that puts the robot into Gazebo."""
+"""Read the options of the program that puts the robot into Gazebo."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _PROGRAMS = {"create": "ros_gz_sim", "spawn_entity.py": "gazebo_ros"}
 
 
 def spawned_with(launch: LaunchFile, option: str) -> Iterator[Fact]:
-    """Give what is said for an option wherever a robot is put into a world.
+    """Yield the values of an option of all programs that put a robot into a world.
 
     Args:
         launch: the launch file.
@@ -31,7 +31,7 @@ def spawned_with(launch: LaunchFile, option: str) -> Iterator[Fact]:
 
 
 def _of_program(launch: LaunchFile, call: Call, option: str) -> Iterator[Fact]:
-    """What a node is told, in arguments or parameters."""
+    """The value of an option, in arguments or parameters of a node."""
     said = launch.values.said
     program = launch.text(call, "executable") or ""
     if launch.text(call, "package") != _PROGRAMS.get(program, ""):

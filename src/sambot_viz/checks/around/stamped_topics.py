@@ -28,7 +28,7 @@ class _End(NamedTuple):
 
     @property
     def what(self) -> str:
-        """What the user calls the node."""
+        """The name of the node for a message."""
         return "the bridge" if self.node.is_bridge else self.node.path.strip("/")
 
     @property
@@ -39,14 +39,14 @@ class _End(NamedTuple):
 
 
 class _Pair(NamedTuple):
-    """A publisher and a subscription of one topic that never meet."""
+    """A publisher and a subscription of one topic with different types."""
 
     sender: _End
     reader: _End
 
 
 def ends_of_other_types(around: Surroundings) -> Iterator[Problem]:
-    """Report topics that are sent with one type, and read only with another."""
+    """Report topics with one type at the publisher and another at all subscribers."""
     ends = [
         _End(node, end)
         for node in around.running.started

@@ -1,4 +1,4 @@
-"""A model with the packages around it: what all of their files say together."""
+"""Combine a model with the files of the packages around it."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ class Surroundings:
     """A robot, and the packages that belong to it.
 
     Attributes:
-        known: the robot; None when the packages are checked without one.
-        packages: that of the model first, those that start it or have its parameters.
+        known: the robot; None for packages without one.
+        packages: first the model's, then those that start it or have its parameters.
     """
 
     known: Robot | None
@@ -73,7 +73,7 @@ class Surroundings:
 
     @cached_property
     def running(self) -> RunningSystem:
-        """What runs when the launch files are started."""
+        """The system that the launch files start."""
         packages = {package.name: package for package in self.packages}
         files = [(each, path) for each in self.packages for path in each.launch_paths]
         parts = self.known.gazebo if self.known is not None else ()
@@ -81,7 +81,7 @@ class Surroundings:
 
     @cached_property
     def bridged(self) -> tuple[BridgeEntry, ...]:
-        """What bridges between Gazebo and ROS carry."""
+        """The topics that bridges between Gazebo and ROS carry."""
         packages = {package.name: package for package in self.packages}
         found = (
             entry
@@ -93,11 +93,11 @@ class Surroundings:
 
     @property
     def simulates_only_known(self) -> bool:
-        """True when Gazebo is started, and nothing whose topics are not known."""
+        """True when Gazebo starts, and no nodes with unknown topics."""
         return self.running.simulates and self.running.is_known
 
     def launch_texts(self) -> Iterator[tuple[LaunchFile, str]]:
-        """Give the Python launch files with their texts."""
+        """Yield the Python launch files with their texts."""
         for package in self.packages:
             for launch in package.launches:
                 yield launch, package.text(launch.path) or ""
@@ -114,7 +114,7 @@ class Surroundings:
 
     @property
     def manifest(self) -> Element | None:
-        """The root of package.xml; None when there is none that is XML."""
+        """The root of package.xml; None for a missing or broken one."""
         return self.files.manifest
 
     @property
@@ -124,7 +124,7 @@ class Surroundings:
 
     @property
     def cmake(self) -> CMakeFile | None:
-        """CMakeLists.txt; None when there is none, or a very long one."""
+        """CMakeLists.txt; None for a missing or very long one."""
         return self.files.cmake
 
     @cached_property
@@ -134,14 +134,14 @@ class Surroundings:
 
     @property
     def setup(self) -> SetupFile | None:
-        """setup.py; None when there is none that is Python, or a very long one."""
+        """setup.py; None for a missing, broken or very long one."""
         return self.files.setup
 
     @cached_property
     def namespaced(self) -> bool:
         """True when launch files or the model put names below others.
 
-        Names of topics and frames in the files are then not the final ones.
+        Then the files do not have the final names of topics and frames.
         """
         marks = {"frame_prefix", "namespace", "tf_prefix"}
         return any(
@@ -155,7 +155,7 @@ class Surroundings:
         )
 
     def own(self, path: str) -> str | None:
-        """Return a path below the share folder of the package; None for others."""
+        """Return a path below the share folder of the package; None for other paths."""
         package, below = self.named(path) or (None, None)
         return below if package is self.files else None
 
@@ -186,7 +186,7 @@ class Surroundings:
 
     @cached_property
     def _unlaunched(self) -> frozenset[tuple[Package, str]]:
-        """Other models that no launch file names, where one names this one."""
+        """Other models that no launch file names, if a launch file names this one."""
         said = [text for launch in self.launches for text in launch.strings]
         if not any(text.endswith(tuple(self._own_names)) for text in said):
             return frozenset()
@@ -200,14 +200,14 @@ class Surroundings:
     def said_elsewhere(
         self, name: str, *, as_topic: bool = False, launched: bool = False
     ) -> bool:
-        """Return whether a launch file, a program or another model says this name.
+        """Return whether a launch file, a program or another model has this name.
 
-        A node or a robot that is not looked at may then have it.
+        A node or a robot outside the check may then have it.
 
         Args:
             name: of a topic, a node or a frame.
-            as_topic: of a model count only topics, whole: neither the frame of a
-                <frame_id>, nor the end of a longer topic.
+            as_topic: only complete topics of a model count, neither the frame in a
+                <frame_id> nor the end of a longer topic.
             launched: leave out models that no launch file names.
         """
         bare = name.strip("/")
@@ -236,7 +236,7 @@ class Surroundings:
         return self._said_in_used(re.compile(rf"[\"'>/ ]{re.escape(bare)}(?![\w/])"))
 
     def _said_in_used(self, name: re.Pattern[str]) -> bool:
-        """Return whether a package says a name that is started with these."""
+        """Return whether a package that starts together with these has the name."""
         used = {p for package in self.packages for p in package.used}
         return any(
             name.search(package.text(path) or "")

@@ -1,4 +1,4 @@
-"""Plugins that Gazebo cannot load, and numbers of drives that it cannot read."""
+"""Report plugins that Gazebo cannot load, and drive settings that it cannot read."""
 
 from __future__ import annotations
 
@@ -61,9 +61,9 @@ def unknown_systems(robot: Robot) -> Iterator[Problem]:
 
 
 def among_others(plugin: Plugin, found: Sequence[Plugin]) -> Plugin | None:
-    """Return one of the others, where these are all for Gazebo Classic and it is not.
+    """Return one of the other plugins, where all except this one are for Classic.
 
-    What is wrong with it is then that it is there, not how it is written.
+    Then its presence is the fault, not its name.
     """
     others = [p for p in found if p.generation and p.element is not plugin.element]
     if plugin.generation != "gz" or any(p.generation == "gz" for p in others):
@@ -72,7 +72,7 @@ def among_others(plugin: Plugin, found: Sequence[Plugin]) -> Plugin | None:
 
 
 def faulty_system(plugin: Element) -> Problem | None:
-    """Report a file that is almost a system of Gazebo, or the name of another class."""
+    """Report a misspelt system of Gazebo, or the name of another class."""
     filename = plugin.get("filename") or ""
     name = (plugin.get("name") or "").strip()
     near, right = near_system(filename), _class_of(filename)
@@ -94,14 +94,14 @@ def faulty_system(plugin: Element) -> Problem | None:
 
 
 def _is_class(name: str, right: str) -> bool:
-    """Return whether a name is that of a class, in a namespace that Gazebo has."""
+    """Return whether a name is a class in a namespace of Gazebo."""
     space, _, last = name.rpartition("::")
     plain = re.sub(r"::v\d+(?=::|$)", "", space)
     return last == right.rpartition("::")[2] and plain in ("", *_SPACE.values())
 
 
 def _class_of(filename: str) -> str | None:
-    """Return the class in a file of Gazebo, None where that is not known."""
+    """Return the class in a file of Gazebo; None for an unknown file."""
     file = _FILE.fullmatch(filename)
     classes = vocabulary("gz_systems").get(file[2], ()) if file else ()
     if file is None or not classes:
@@ -110,7 +110,7 @@ def _class_of(filename: str) -> str | None:
 
 
 def _file_of(name: str, filename: str) -> str | None:
-    """Return the file that has a class of a plugin, called as another file is."""
+    """Return the file with the class of a plugin, in the naming of another file."""
     file, last = _FILE.fullmatch(filename), name.rpartition("::")[2]
     systems = vocabulary("gz_systems").items()
     holds = next((system for system, classes in systems if last in classes), None)
@@ -120,7 +120,7 @@ def _file_of(name: str, filename: str) -> str | None:
 
 
 def near_system(filename: str) -> str | None:
-    """Return the file that is meant by one that Gazebo does not have, or None."""
+    """Return the file that a missing one misspells, or None."""
     file = _LIKE_FILE.fullmatch(filename)
     if file is None:
         return None
@@ -130,7 +130,7 @@ def near_system(filename: str) -> str | None:
         name = head
     near = nearest(name, vocabulary("gz_systems"), _LIKENESS)
     if near is not None and {*near.split("-")} < {*name.split("-")}:
-        # With a word more, such as yarp-forcetorque, it is of another package.
+        # A name with one more word, such as yarp-forcetorque, is from another package.
         return None
     better = f"{file[1] or ''}{file[2]}-{near}-system{file[4] or ''}"
     return None if near is None or better == filename else better

@@ -1,4 +1,4 @@
-"""Parameter files and launch files that cannot be read: what needs them stops."""
+"""Report unreadable parameter files and launch files, which stop their users."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _KEY, _LIKENESS = "ros__parameters", 0.84
 
 
 def unreadable_yaml(around: Surroundings) -> Iterator[Problem]:
-    """Report parameter files that are no YAML."""
+    """Report parameter files that are not YAML."""
     read = {file.shown for file in around.yaml_files}
     for package, path, user in parameter_files(around):
         shown = package.shown(path)
@@ -37,7 +37,7 @@ def unreadable_yaml(around: Surroundings) -> Iterator[Problem]:
         is_launch = path.endswith((".launch.yaml", ".launch.yml"))
         if text is None or is_launch or _TEMPLATE.search(text):
             continue
-        # The import is late, as below: most files can be read.
+        # Import late, as below: most files are readable.
         from sambot_viz.checks.around.files.yaml_repair import fault_in
 
         fault = fault_in(text)
@@ -55,7 +55,7 @@ def unreadable_yaml(around: Surroundings) -> Iterator[Problem]:
 
 
 def joined_entries(around: Surroundings) -> Iterator[Problem]:
-    """Report topics of a bridge that are one entry, because a "- " is missing."""
+    """Report topics of a bridge that a missing "- " joins into one entry."""
     for file in around.yaml_files:
         if not isinstance(file.root, yaml.SequenceNode):
             continue
@@ -76,7 +76,7 @@ def joined_entries(around: Surroundings) -> Iterator[Problem]:
 
 
 def misspelt_key(around: Surroundings) -> Iterator[Problem]:
-    """Report ros__parameters with a wrong letter."""
+    """Report misspelt ros__parameters."""
     users = {p.shown(path): user for p, path, user in parameter_files(around)}
     for file in around.yaml_files:
         for key, place in _above_parameters(file):
@@ -93,7 +93,7 @@ def misspelt_key(around: Surroundings) -> Iterator[Problem]:
 
 
 def missing_key(around: Surroundings) -> Iterator[Problem]:
-    """Report files given to nodes whose values are not below ros__parameters."""
+    """Report files of nodes with values outside ros__parameters."""
     files = {file.shown: file for file in around.yaml_files}
     users = {
         given.shown: (node, given)
@@ -123,16 +123,16 @@ def _is_like_key(written: str) -> bool:
 
 
 def _put_below(key: yaml.Node, block: yaml.Node, shown: str) -> Fix:
-    """Return the fix that writes the key above a block, which moves where it must."""
+    """Return the fix that writes the key above a block, and moves it if needed."""
     source = source_of(shown)
     above, first = (place_of(node, shown).column or 1 for node in (key, block))
     hint = f"write {_KEY}: above them, and move them to the right"
     begin = cast("Any", block).start_mark.line
     if source is None or begin == cast("Any", key).start_mark.line:
-        # Nothing can be moved in {a: 1, b: 2}, behind the key.
+        # In {a: 1, b: 2}, after the key, no line can move.
         return Fix(hint)
     lines = source.text.split("\n")[begin : cast("Any", block).end_mark.line + 1]
-    # The mark of the end is where the next block begins, or what stands above it.
+    # The end mark is at the beginning of the next block, or of the text above it.
     while len(lines) > 1 and not lines[-1][: first - 1].isspace():
         lines.pop()
     move = max(0, above + 4 - first)
@@ -156,7 +156,7 @@ def _above_parameters(file: YamlFile) -> Iterator[tuple[str, Place]]:
 def parameter_files(
     around: Surroundings,
 ) -> Iterator[tuple[Package, str, Place | None]]:
-    """Give the parameter files: those that launch files name, and usual names."""
+    """Yield the parameter files: those that launch files name, and usual names."""
     named = {
         around.named(fact.value): fact.place
         for launch in reversed(around.launches)
@@ -170,7 +170,7 @@ def parameter_files(
 
 
 def unreadable_python(around: Surroundings) -> Iterator[Problem]:
-    """Report launch files, and a setup.py, that are no Python."""
+    """Report launch files, and a setup.py, that are not Python."""
     for package in around.packages:
         read = {launch.path for launch in package.launches}
         paths = [p for p in package.ending("launch.py") if p not in read]
@@ -194,7 +194,7 @@ def unreadable_python(around: Surroundings) -> Iterator[Problem]:
 
 
 def unreadable_launch_files(around: Surroundings) -> Iterator[Problem]:
-    """Report launch files that are no XML."""
+    """Report launch files that are not XML."""
     for package in around.packages:
         for path in package.ending(".launch.xml"):
             text, shown = package.text(path) or "", package.shown(path)
@@ -202,7 +202,7 @@ def unreadable_launch_files(around: Surroundings) -> Iterator[Problem]:
                 parse_xml(text, shown)
             except XmlFault as fault:
                 open_ = _not_closed(text)
-                # The import is late: most launch files are right.
+                # Import late: most launch files are right.
                 from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
 
                 yield from (
@@ -213,7 +213,7 @@ def unreadable_launch_files(around: Surroundings) -> Iterator[Problem]:
 
 
 def unreadable_yaml_launches(around: Surroundings) -> Iterator[Problem]:
-    """Report launch files in YAML that are none, or have no launch at the top."""
+    """Report YAML launch files that are not YAML, or have no launch at the top."""
     for package in around.packages:
         for path in package.ending(".launch.yaml", ".launch.yml"):
             text, shown = package.text(path) or "", package.shown(path)
@@ -232,7 +232,7 @@ def unreadable_yaml_launches(around: Surroundings) -> Iterator[Problem]:
                         write(place, wrong, _ROOT) if near else f"write {_ROOT}: above",
                     )
                 continue
-            # The import is late, as above.
+            # Import late, as above.
             from sambot_viz.checks.around.files.yaml_repair import fault_in
 
             fault = fault_in(text) if text else None
@@ -275,7 +275,7 @@ def _unclosed(shown: str, tag: str, line: int, before: str) -> Problem:
 
 
 def unreadable_models(around: Surroundings) -> Iterator[Problem]:
-    """Report models and their parts that are no XML, also those that nothing reads."""
+    """Report models and their parts that are not XML, including unused ones."""
     for package in around.packages:
         for path in package.ending(".xacro", ".urdf"):
             text, shown = package.text(path), package.shown(path)

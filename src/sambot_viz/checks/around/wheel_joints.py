@@ -1,4 +1,4 @@
-"""The joints of a model that may be the left or the right wheel of a drive."""
+"""Find the joints of a model that may be the left or right wheel of a drive."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ Side = Literal["left", "right", ""]
 
 
 def side_in(name: str) -> Side:
-    """Return the side that the name of an element or a parameter says."""
+    """Return the side in the name of an element or a parameter."""
     lower = name.lower()
     return "left" if "left" in lower else "right" if "right" in lower else ""
 
 
 def side_of(robot: Robot, joint: str) -> Side:
-    """Return where the wheel of a joint is; "" in the middle and where it is not sure.
+    """Return the side of a joint's wheel; "" in the middle and for an uncertain one.
 
-    With an axis that is not y the front may be the back, and left is right.
+    With an axis other than y, front and back may change places, and left and right.
     """
     T = robot.at_start[robot.joints[joint].child]
     y = round(T.position[1], 4)
@@ -38,12 +38,12 @@ def meant_wheel(
 
     Args:
         robot: the robot.
-        name: what the drive says; "" for nothing.
-        side: where its wheel is.
-        taken: joints that the drive has for other wheels.
+        name: the name in the drive; "" for none.
+        side: the side of its wheel.
+        taken: the joints of its other wheels.
 
     Returns:
-        The joint, or None where it is not certain; and all joints that it may be.
+        The joint, or None for an uncertain one; and all possible joints.
     """
     turning = [
         joint.name

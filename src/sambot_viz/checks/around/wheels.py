@@ -1,4 +1,4 @@
-"""Wheel sizes of differential drives against the model."""
+"""Compare wheel sizes of differential drives with the model."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _SAME_PLACE = 0.001
 
 
 class _Drive(NamedTuple):
-    """What a drive says about its wheels.
+    """The wheels of a drive, by its settings.
 
     Attributes:
         left: the joints on the left.
@@ -45,7 +45,7 @@ class _Drive(NamedTuple):
 
 
 def wheel_sizes(robot: Robot) -> Iterator[Problem]:
-    """Report a wheel separation or radius of a plugin that is not that of the model."""
+    """Report a wheel separation or radius of a plugin that differs from the model's."""
     for plugin in plugins(robot.gazebo):
         if plugin.is_drive:
             drive = _Drive(
@@ -59,7 +59,7 @@ def wheel_sizes(robot: Robot) -> Iterator[Problem]:
 
 
 def wheel_sizes_of_controllers(around: Surroundings) -> Iterator[Problem]:
-    """Report the same for the parameters of a diff_drive_controller."""
+    """Report such sizes in the parameters of a diff_drive_controller."""
     for file in around.yaml_files if around.robot.gazebo else ():
         for node in file.nodes:
             given = file.of(node)
@@ -106,7 +106,7 @@ def _separation(
             continue
         wheels = sum(joint.endless for joint in robot.joints.values())
         if fact.number > apart and (len(pairs) > 1 or wheels >= _SKIDDING):
-            # Wheels that skid turn as if they were farther apart.
+            # Skidding wheels behave like wheels farther apart.
             continue
         if apart < body <= fact.number:
             yield _inside(robot, left, right, apart, fact)
@@ -133,7 +133,7 @@ def _body_width(robot: Robot, wheel: Joint) -> float:
 def _inside(
     robot: Robot, left: Joint, right: Joint, apart: float, said: Fact
 ) -> Problem:
-    """Report wheels in the body, which the drive has beside it."""
+    """Report wheels inside the body that the drive has beside it."""
     place = left.origin.place or left.place
     return Problem.at(
         place,

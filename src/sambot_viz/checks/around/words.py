@@ -1,4 +1,4 @@
-"""Words that a program does not know, where another one of its vocabulary is meant."""
+"""Report misspelt words, which are not in the vocabulary of a program."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _LIKENESS = 0.75
 
 
 class WordKind(NamedTuple):
-    """What words of one kind have in common.
+    """The common data of words of one kind.
 
     Attributes:
         table: the vocabulary.
@@ -28,15 +28,15 @@ class WordKind(NamedTuple):
 
 
 class WrittenWord(NamedTuple):
-    """A word as somebody wrote it.
+    """A word in a file.
 
     Attributes:
-        owner: what has it: its row in the vocabulary.
+        owner: its owner: the row in the vocabulary.
         text: the word.
-        given: the words beside it; one of these is not what is meant.
+        given: the words beside it, which are not candidates.
         place: where it is.
-        fix: returns the fix that writes another word in its place.
-        shown: what the owner is called.
+        fix: returns the fix that replaces it with another word.
+        shown: the name of the owner for a message.
     """
 
     owner: str
@@ -48,15 +48,15 @@ class WrittenWord(NamedTuple):
 
 
 def meant_word(words: tuple[str, ...], wrong: str, likeness: float) -> str | None:
-    """Return the word of a vocabulary that was meant by another one.
+    """Return the word of a vocabulary that a text misspells.
 
     Args:
-        words: of the vocabulary; "wrong=right" gives the one that is meant.
-        wrong: what is written.
-        likeness: how like a word that is not given has to be.
+        words: of the vocabulary; "wrong=right" gives the right word for a wrong one.
+        wrong: the word in the file.
+        likeness: the required similarity of a word that is not in the row.
 
     Returns:
-        None for a word that is known, and for one that is like no other.
+        None for a known word, and for one without a similar word.
     """
     known = [word for word in words if "=" not in word]
     if wrong in known:
@@ -66,7 +66,7 @@ def meant_word(words: tuple[str, ...], wrong: str, likeness: float) -> str | Non
 
 
 def misspelt(words: Iterable[WrittenWord], kind: WordKind) -> Iterator[Problem]:
-    """Report words that are not in the vocabulary of their owner."""
+    """Report misspelt words of their owners' vocabularies."""
     table = vocabulary(kind.table)
     for word in words:
         near = meant_word(table.get(word.owner, ()), word.text, _LIKENESS)

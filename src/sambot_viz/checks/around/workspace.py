@@ -1,7 +1,7 @@
-"""The packages around a model: each file found and read once, by its kind.
+"""Find and read the files of the packages around a model, each once, by kind.
 
-A package is the folder of a package.xml. Its files are read as text when a rule asks
-for them, within limits, and kept for all rules and all models of one check.
+A package is the folder of a package.xml. It reads files as text when a rule asks for
+them, within limits, and keeps them for all rules and models of one check.
 """
 
 from __future__ import annotations
@@ -49,16 +49,16 @@ _QUOTED_FILE = re.compile(r"[\"']/?([\w./+-]+\.\w+)[\"']")
 
 @dataclass(frozen=True, eq=False)
 class Package:
-    """A package, with what its files say.
+    """A package, with the contents of its files.
 
     Attributes:
         folder: the package, absolute.
         name: its name in package.xml.
-        relative: paths are named as the user named the model: relative to the
-            working folder, or absolute.
+        relative: True for paths relative to the working folder, as the user wrote the
+            model's; False for absolute ones.
         trusted: False reads no file that a link leads out of the package.
-        read: gets each file that is looked for.
-        workspace: finds other packages; None for a folder that is looked at alone.
+        read: receives each file that the package looks for.
+        workspace: finds other packages; None for a folder alone.
     """
 
     folder: Path
@@ -70,7 +70,7 @@ class Package:
 
     @cached_property
     def paths(self) -> tuple[str, ...]:
-        """All files, relative to the package with slashes; other packages left out."""
+        """All files, relative to the package with slashes, without other packages."""
         return tuple(sorted(self._walk()))
 
     def _walk(self) -> Iterator[str]:
@@ -104,7 +104,7 @@ class Package:
         return {}
 
     def text(self, path: str) -> str | None:
-        """Return the text of a file, None when it cannot be read or is very large."""
+        """Return the text of a file; None for an unreadable or very large one."""
         if path not in self._texts:
             self._texts[path] = self._read(path)
         return self._texts[path]
@@ -142,9 +142,9 @@ class Package:
         return {}
 
     def actions(self, path: str) -> tuple[Action, ...] | None:
-        """Return what a launch file does; None for one that is not readable."""
+        """Return the actions of a launch file; None for an unreadable one."""
         if path not in self._actions:
-            # The import is late: many packages have no launch files.
+            # Import late: many packages have no launch files.
             from sambot_viz.checks.around.launching.read import read_actions
 
             launch = next((f for f in self.launches if f.path == path), None)
@@ -203,7 +203,7 @@ class Package:
 
     @cached_property
     def configs(self) -> dict[str, YamlFile]:
-        """The configs of RViz that are YAML, by their paths."""
+        """The RViz configs that are YAML, by their paths."""
         read = map(self.yaml, self.ending(".rviz"))
         return {file.path: file for file in read if file is not None}
 
@@ -232,7 +232,7 @@ class Package:
 
     @cached_property
     def manifest(self) -> Element | None:
-        """The root of package.xml; None when there is none that is XML."""
+        """The root of package.xml; None for a missing or broken one."""
         name = "package.xml"
         try:
             return parse_xml(self.text(name) or "", name)
@@ -241,7 +241,7 @@ class Package:
 
     @cached_property
     def cmake(self) -> CMakeFile | None:
-        """CMakeLists.txt; None when there is none, or a very long one."""
+        """CMakeLists.txt; None for a missing or very long one."""
         name = "CMakeLists.txt"
         text = self.text(name)
         if text is None or len(text) > limits.BUILD_FILE.value:
@@ -269,26 +269,26 @@ class Package:
 
     @cached_property
     def setup(self) -> SetupFile | None:
-        """setup.py; None when there is none that is Python, or a very long one."""
+        """setup.py; None for a missing, broken or very long one."""
         name = "setup.py"
         text = self.text(name) if name in self.paths else None
         if text is None or len(text) > limits.BUILD_FILE.value:
             return None
-        # The import is late: most packages have none.
+        # Import late: most packages have none.
         from sambot_viz.checks.around.setup_file import read_setup
 
         return read_setup(text, self.shown(name), self.folder, trusted=self.trusted)
 
 
 class Workspace:
-    """Finds packages, each made once.
+    """Finds packages, and makes each once.
 
     Args:
         start: the folder of the model, or the package.
         package_path: as for `check`.
-        given: folders whose packages belong to what is checked.
+        given: folders whose packages belong to the check.
         relative: as for `Package`.
-        trusted: False finds no package but that of the model.
+        trusted: False finds only the package of the model.
         read: as for `Package`.
     """
 
@@ -313,7 +313,7 @@ class Workspace:
 
     @cached_property
     def _resolver(self) -> FileResolver:
-        # The import is late: few checks look for a file of an unknown package.
+        # Import late: few checks look for a file of an unknown package.
         from sambot_viz.robot.packages.resolve import FileResolver
 
         return FileResolver(self._index, self._start)
@@ -354,12 +354,12 @@ class Workspace:
     def is_known(self, name: str) -> bool:
         """Return whether there is a package of that name, here or installed."""
         path = self._index.find(name).path if self._trusted else None
-        # A folder of that name alone, such as rviz, is none.
+        # A folder with that name, such as rviz, is not enough.
         found = path is not None and (path / "package.xml").is_file()
         return found or any(package.name == name for package in self.given)
 
     def file(self, value: str) -> Path | None:
-        """Return the file that a path such as package://p/urdf/x.urdf means."""
+        """Return the file at a path such as package://p/urdf/x.urdf."""
         name, _, below = value.removeprefix(SHARE).partition("/")
         package = next((p for p in self.given if p.name == name), None)
         if package is None:
@@ -383,9 +383,9 @@ def shown(path: Path, relative: bool) -> str:
 
 
 def _named_in(text: str) -> Iterator[str]:
-    """Give the paths in packages that a launch file names which is not Python.
+    """Yield the paths in packages that an XML or YAML launch file names.
 
-    In one with a mistake, each file may be in each of the packages.
+    In a broken launch file, each file may be in each of the packages.
     """
     for found in _IN_SHARE.finditer(text):
         yield f"{SHARE}{found[1] or found[3]}{found[2] or found[4]}"

@@ -1,4 +1,4 @@
-"""The worlds that launch files start: their text, and systems that are needed."""
+"""Check the worlds that launch files start: their text and required systems."""
 
 from __future__ import annotations
 
@@ -40,14 +40,14 @@ _NEEDED: dict[str, tuple[str, str]] = {
 
 
 class _Need(NamedTuple):
-    """A system that the world has to have.
+    """A system that the world must have.
 
     Attributes:
         file: of the plugin.
         name: of its class, without the namespace.
-        by: what needs it.
-        place: where that is, or None.
-        follows: what happens without it.
+        by: the sensor or plugin that needs it.
+        place: the place of that, or None.
+        follows: the consequence without it.
     """
 
     file: str
@@ -58,7 +58,7 @@ class _Need(NamedTuple):
 
 
 def missing_systems(around: Surroundings) -> Iterator[Problem]:
-    """Report a world without a system that is needed, beside other systems."""
+    """Report a world with systems that lacks a required one."""
     worlds = _worlds(around)
     if len(worlds) != 1:
         return
@@ -76,7 +76,7 @@ def missing_systems(around: Surroundings) -> Iterator[Problem]:
     place = Place(shown, line)
     needs = {need.file: need for need in reversed([*_needs(around)])}
     for need in reversed(needs.values()):
-        # The physics are not said again for what rests on it.
+        # A system that rests on the physics needs no second finding.
         if need.file in has or near_names(need.file, has):
             continue
         inner = "<render_engine>ogre2</render_engine>" if need.name == "Sensors" else ""
@@ -93,12 +93,12 @@ def missing_systems(around: Surroundings) -> Iterator[Problem]:
 
 
 def near_names(wanted: str, has: Iterable[str]) -> bool:
-    """True where a misspelt name is the finding."""
+    """True where another rule reports a misspelt name."""
     return any(near_system(name) == wanted for name in has)
 
 
 def _needs(around: Surroundings) -> Iterator[_Need]:
-    """Give what the world needs, the most important first."""
+    """Yield the systems that the world needs, the most important first."""
     name = around.robot.name
     yield _Need(_PHYSICS, "Physics", f"the robot {name}", None, "it does not move")
     for launch in around.launches:
@@ -118,7 +118,7 @@ def _needs(around: Surroundings) -> Iterator[_Need]:
 
 
 def unreadable_worlds(around: Surroundings) -> Iterator[Problem]:
-    """Report worlds that are no XML."""
+    """Report worlds that are not XML."""
     for shown, text in _worlds(around).items():
         world = _read(text, shown)
         if isinstance(world, XmlFault):
@@ -167,7 +167,7 @@ def values_of_worlds(around: Surroundings) -> Iterator[Problem]:
 
 
 def _elements(around: Surroundings) -> Iterator[Element]:
-    """Give the elements of the worlds that are their own, not those of models."""
+    """Yield the elements of the worlds themselves, without those of models."""
     for shown, text in _worlds(around).items():
         world = _read(text, shown)
         waiting = [] if isinstance(world, XmlFault) else [world]
@@ -179,7 +179,7 @@ def _elements(around: Surroundings) -> Iterator[Element]:
 
 @lru_cache(maxsize=4)
 def _read(text: str, shown: str) -> Element | XmlFault:
-    """Return the root of a world, or what stops it from being read."""
+    """Return the root of a world, or the fault that makes it unreadable."""
     try:
         return parse_xml(text, shown)
     except XmlFault as fault:

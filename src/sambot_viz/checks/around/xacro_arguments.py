@@ -1,4 +1,4 @@
-"""The arguments that launch files give to xacro for a model."""
+"""Find the arguments that launch files give to xacro for a model."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ _ATTRIBUTE = re.compile(r"""\b(name|default)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 def launched_arguments(
     model: Path, packages: Sequence[Package]
 ) -> tuple[dict[str, str], ...]:
-    """Return what launch files that open a model give to xacro for it.
+    """Return the xacro arguments from launch files that open a model.
 
-    Only what is known there, and not the default.
+    Only known values that differ from the default.
 
     Returns:
-        First what is the same in all of them, and with what the model is checked; then
-        what others give, each once.
+        First the values common to all of them, with which the check loads the model;
+        then the values of single ones, each once.
     """
-    # Most launch files give nothing, and need not be followed for that.
+    # Most launch files give nothing: the check need not follow them.
     if not any(":=" in text for p in packages for text in _said(p)):
         return ({},)
     files = [(each, path) for each in packages for path in each.launch_paths]
@@ -57,7 +57,7 @@ def launched_arguments(
 def _changes(
     given: Mapping[str, str], defaults: Mapping[str, str], packages: Sequence[Package]
 ) -> Iterator[tuple[str, str]]:
-    """Yield the arguments that are known, and not the defaults of a model."""
+    """Yield the known arguments that differ from the defaults of a model."""
     for name, value in given.items():
         path = None if UNKNOWN in value else _path(value, packages)
         if path is not None and defaults.get(name, path) != path:
@@ -72,7 +72,7 @@ def _said(package: Package) -> Iterator[str]:
 
 
 def _defaults(packages: Sequence[Package]) -> dict[str, str]:
-    """Return the defaults of all arguments that models declare."""
+    """Return the defaults of all declared arguments of models."""
     found: dict[str, str] = {}
     for package in packages:
         for path in package.ending(".xacro", ".urdf"):
@@ -86,11 +86,10 @@ def _defaults(packages: Sequence[Package]) -> dict[str, str]:
 def xacro_arguments(
     model: Path, packages: Sequence[Package]
 ) -> Iterator[dict[str, str]]:
-    """Give the arguments that launch files give to a model; the first value counts.
+    """Yield the arguments that launch files give to a model; the first value counts.
 
-    Launch arguments stand for their default values, or for the first of their choices.
-    A second answer has 0, a number and a text, for values that are known only when a
-    launch file runs.
+    Launch arguments have their default values, or the first of their choices. A second
+    result has 0, a number and a text for values that only a run reveals.
     """
     found: dict[str, str] = {}
     unknown: dict[str, str] = {}
@@ -127,7 +126,7 @@ def _given(launch: LaunchFile) -> Iterator[tuple[str, str]]:
 
 
 def _arguments(command: str) -> Iterator[tuple[str, str]]:
-    """Give the NAME:=VALUE of a command line, as ros2 launch splits it."""
+    """Yield the NAME:=VALUE of a command line, as ros2 launch splits it."""
     try:
         words = shlex.split(command)
     except ValueError:
@@ -139,7 +138,7 @@ def _arguments(command: str) -> Iterator[tuple[str, str]]:
 
 
 def _choices(launch: LaunchFile) -> Iterator[tuple[str, str]]:
-    """Give the launch arguments with a list of values, and the first of them."""
+    """Yield the launch arguments with a list of values, and the first of them."""
     for call in launch.calls:
         if call.name == "DeclareLaunchArgument":
             name = launch.text(call, "name", 0)

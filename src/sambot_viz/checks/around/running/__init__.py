@@ -1,4 +1,4 @@
-"""What launch files start, worked out without running them."""
+"""Find what launch files start, without running them."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def running_system(
     workspace: Sequence[Path | str] = (),
     trusted: bool = True,
 ) -> RunningSystem:
-    """Return what a launch file starts, or the launch files of a package.
+    """Return what a launch file or the launch files of a package start.
 
     Args:
         path: a launch file in a package, or a package.

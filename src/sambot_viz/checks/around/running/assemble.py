@@ -1,4 +1,4 @@
-"""Puts together what the launch files of packages start."""
+"""Assemble what the launch files of packages start."""
 
 from __future__ import annotations
 
@@ -35,15 +35,15 @@ def system_of(
 ) -> RunningSystem:
     """Return what runs when launch files are started.
 
-    Those that others of them include are not started a second time. Nodes that have
-    parameters in the packages, and that no launch file starts or gives these, may be
-    started by hand.
+    A launch file that another one includes does not start a second time. The user may
+    start nodes by hand that have parameters in the packages, but get them from no
+    launch file.
 
     Args:
         files: the launch files, each with its package.
-        packages: those whose parameters count.
-        find: returns a package that is here by its name.
-        simulated: what Gazebo runs for a robot.
+        packages: the packages whose parameters count.
+        find: returns an available package by its name.
+        simulated: the sensors and plugins that Gazebo runs for a robot.
         arguments: of the command line, for each of the launch files.
         displays: read the configs of RViz for the topics of its displays.
     """
@@ -52,7 +52,7 @@ def system_of(
         followed[package, path] = LaunchEvaluation(find, arguments)
         followed[package, path].run(package, path)
     included = {file for one in followed.values() for file in one.included}
-    # Files that include each other are all started.
+    # Files that include each other all start.
     roots = [file for file in followed if file not in included] or list(followed)
     nodes: list[RunningNode] = []
     unknown: list[UnknownStart] = []
@@ -75,7 +75,7 @@ def system_of(
 def _controllers(
     nodes: Iterable[RunningNode], packages: Sequence[Package]
 ) -> Iterator[RunningNode]:
-    """Give the controllers that spawners start."""
+    """Yield the controllers that spawners start."""
     files = [file for package in packages for file in package.yaml_files]
     types = {p.name: p.fact.value for file in files for p in file.parameters}
     for node in nodes:
@@ -97,7 +97,7 @@ def _controllers(
 def _by_hand(
     nodes: Sequence[RunningNode], packages: Sequence[Package]
 ) -> Iterator[RunningNode]:
-    """Give nodes and bridges with parameters that no launch file gives them."""
+    """Yield nodes and bridges with parameters that no launch file gives them."""
     started = {node.name: node for node in nodes}
     served = {n.name for n in nodes if any(each.given_at for each in n.parameters)}
     named = {each.value for node in nodes for each in node.parameters}

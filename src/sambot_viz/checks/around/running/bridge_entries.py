@@ -1,4 +1,4 @@
-"""The topics that a bridge between Gazebo and ROS carries."""
+"""Read the topics that a bridge between Gazebo and ROS carries."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SCOPED = ("world/", "model/")
 
 
 class BridgeEntry(NamedTuple):
-    """One topic that a bridge carries.
+    """A topic that a bridge carries.
 
     Attributes:
         ros: its name in ROS.
@@ -47,14 +47,14 @@ class BridgeEntry(NamedTuple):
 
     @property
     def scoped(self) -> bool:
-        """True for a name that Gazebo makes itself."""
+        """True for a name that Gazebo generates."""
         return bare(self.gz.value).startswith(_SCOPED)
 
     def endpoints(self, topic: str) -> Iterator[Endpoint]:
-        """Give what the bridge publishes and subscribes to for it.
+        """Yield the publishers and subscriptions of the bridge for it.
 
         Args:
-            topic: its whole name in ROS.
+            topic: its full name in ROS.
         """
         gz = f"/{bare(self.gz.value)}"
         for publishes, way in ((True, _TO_GZ), (False, _TO_ROS)):
@@ -70,12 +70,12 @@ class BridgeEntry(NamedTuple):
 
 
 def bare(topic: str) -> str:
-    """Return a topic as a whole name without the first slash."""
+    """Return the full name of a topic without the first slash."""
     return topic.strip().strip("/")
 
 
 def entries_of_file(file: YamlFile) -> Iterator[BridgeEntry]:
-    """Give the entries in a file of a bridge."""
+    """Yield the entries in a file of a bridge."""
     for given in file.entries():
         both = given.get("topic_name")
         ros = given.get("ros_topic_name", both)
@@ -94,7 +94,7 @@ def entries_in(
     arguments: Iterable[tuple[str | None, Place]],
     remappings: Iterable[tuple[str, str]],
 ) -> Iterator[BridgeEntry]:
-    """Give the entries in the arguments of a bridge.
+    """Yield the entries in the arguments of a bridge.
 
     Args:
         arguments: its arguments with their places.

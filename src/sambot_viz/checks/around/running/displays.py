@@ -1,4 +1,4 @@
-"""The topics that the displays and tools in a config of RViz have."""
+"""Read the topics of the displays and tools in an RViz config."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ _TOPICS = ("Topic", "Description Topic", "Depth Map Topic", "Image Topic")
 
 
 class DisplayTopic(NamedTuple):
-    """A topic of a display or a tool that is switched on.
+    """A topic of an enabled display or a tool.
 
     Attributes:
-        name: of the display.
+        name: the name of the display.
         kind: its class.
         message: the type of the topic.
         topic: the topic.
@@ -47,11 +47,11 @@ class DisplayTopic(NamedTuple):
 def displays_of(
     node: RunningNode, find: Callable[[str], Package | None]
 ) -> Iterator[DisplayTopic]:
-    """Give the topics of the displays and tools in the config of an RViz.
+    """Yield the topics of the displays and tools in the config of an RViz.
 
     Args:
         node: the RViz.
-        find: returns a package that is here by its name.
+        find: returns an available package by its name.
     """
     named = dict(pairwise(node.arguments))
     path = named.get("-d") or named.get("--display-config") or ""

@@ -1,4 +1,4 @@
-"""Which topics and transforms a node has, from what is known of it."""
+"""Find the topics and transforms of a node, from the table of known nodes."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _ENDS = {
 
 
 class _Said(NamedTuple):
-    """A text that a parameter says, or the table."""
+    """A text from a parameter or from the table."""
 
     text: str
     parameter: GivenParameter | None
@@ -48,9 +48,9 @@ class _Said(NamedTuple):
 
 
 def whole_name(node: RunningNode, name: str) -> str:
-    """Return the topic that a name in a node becomes, with namespace and remappings.
+    """Return the topic for a name in a node, with namespace and remappings.
 
-    Without a slash at its start where the namespace is not known.
+    It has no leading slash where the namespace is unknown.
     """
     whole = _expanded(node, name)
     for old, new in node.remappings:
@@ -70,7 +70,7 @@ def _expanded(node: RunningNode, name: str) -> str:
 def with_endpoints(
     node: RunningNode, find: Callable[[str], Package | None], *, displays: bool
 ) -> RunningNode:
-    """Return a node with its topics and transforms, as far as they are known.
+    """Return a node with its known topics and transforms.
 
     Args:
         node: the node.
@@ -99,7 +99,7 @@ def with_endpoints(
 
 
 def switched_off(node: RunningNode) -> Iterator[Endpoint]:
-    """Give the topics that a node would have with another value of a parameter."""
+    """Yield the topics that a node would have with another value of a parameter."""
     known = known_nodes().nodes.get((node.package, node.executable))
     if known is not None:
         yield from _of_rows(node, known, off=True)
@@ -134,7 +134,7 @@ def _of_rows(
 
 
 def _typed_at(node: RunningNode, row: NodeRow) -> Place | None:
-    """Return the line that decides on a row; None where a default does that varies."""
+    """Return the line that decides on a row; None for a default that varies."""
     name, _ = row.switch
     given = node.parameter(name) if name else None
     if given is not None:
@@ -144,7 +144,7 @@ def _typed_at(node: RunningNode, row: NodeRow) -> Place | None:
 
 
 def _unnamed(node: RunningNode, row: NodeRow) -> Endpoint:
-    """Return an end whose topic Gazebo makes up: its parameter is not given."""
+    """Return an end whose topic Gazebo generates: its parameter is missing."""
     found = _WORD.fullmatch(row.words[0])
     name, after = (found[2], found[4] or "") if found else ("", "")
     publishes, _ = _ENDS[row.verb]
@@ -157,14 +157,14 @@ def _is_off(node: RunningNode, row: NodeRow) -> bool:
 
 
 def _is(node: RunningNode, condition: tuple[str, str]) -> bool:
-    """Return whether a node is given a parameter with a value."""
+    """Return whether a node gets a parameter with a value."""
     name, value = condition
     given = node.parameter(name) if name else None
     return given is not None and flag(given.value or "") is flag(value)
 
 
 def _said(node: RunningNode, words: str) -> Iterator[_Said]:
-    """Give the texts that a word of the table stands for."""
+    """Yield the texts that a word of the table means."""
     found = _WORD.fullmatch(words)
     if found is None:
         yield _Said(words, None, "")
@@ -210,7 +210,7 @@ def _needs(node: RunningNode, known: KnownNode) -> Iterator[NeededFrame]:
 
 
 def _static(node: RunningNode) -> Iterator[PublishedTransform]:
-    """Give the transform in the arguments of a static_transform_publisher."""
+    """Yield the transform in the arguments of a static_transform_publisher."""
     words = [word or "" for word in node.arguments]
     words = words[: words.index("--ros-args")] if "--ros-args" in words else words
     named = dict(pairwise(words))
@@ -225,7 +225,7 @@ def _static(node: RunningNode) -> Iterator[PublishedTransform]:
 def entries_of(
     node: RunningNode, find: Callable[[str], Package | None]
 ) -> Iterator[BridgeEntry]:
-    """Give what a bridge carries, by its arguments, with remappings, and its file.
+    """Yield the topics of a bridge from its arguments, its remappings and its file.
 
     Args:
         node: the bridge.
@@ -243,7 +243,7 @@ def entries_of(
 def _of_displays(
     node: RunningNode, find: Callable[[str], Package | None]
 ) -> Iterator[Endpoint]:
-    """Give the topics of the displays and tools in a config of RViz."""
+    """Yield the topics of the displays and tools in an RViz config."""
     for each in displays_of(node, find):
         whole = whole_name(node, each.topic.value)
         place, written = each.topic.place, each.topic.value

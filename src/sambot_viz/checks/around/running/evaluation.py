@@ -1,4 +1,4 @@
-"""Follows the actions of launch files, with their arguments, groups and includes."""
+"""Follow the actions of launch files, with arguments, groups and includes."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class LaunchEvaluation:
 
     Attributes:
         nodes: the nodes.
-        unknown: where more may start.
+        unknown: actions that may start more.
         included: the launch files that others include.
         declared: names of launch arguments.
         paths, unclear: as `RunningSystem` has them.
@@ -136,7 +136,7 @@ class LaunchEvaluation:
 
     @contextmanager
     def _scope(self) -> Generator[None, None, None]:
-        """Forget at the end what is set inside."""
+        """Restore all settings at the end."""
         arguments = dict(self._texts.arguments)
         before = self._namespace, self._given, self._remappings
         yield
@@ -164,7 +164,7 @@ class LaunchEvaluation:
         self._remappings = (*self._pairs(action.remappings), *self._remappings)
 
     def _below(self, name: Expression) -> str | None:
-        """Return a namespace below that around it."""
+        """Return a namespace below the surrounding one."""
         text = self._texts.text(name)
         if text is None or (self._namespace is None and not text.startswith("/")):
             return None
@@ -295,7 +295,7 @@ class LaunchEvaluation:
 
 
 def _both(around: Starts, truth: bool | None) -> Starts:
-    """Return whether something starts that does so below a condition."""
+    """Return whether an action below a condition starts."""
     if around == "no" or truth is False:
         return "no"
     return "unknown" if around == "unknown" or truth is None else "yes"

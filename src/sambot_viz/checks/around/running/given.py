@@ -1,4 +1,4 @@
-"""The parameters that a launch file gives to a node, itself and by files."""
+"""Read the parameters that a launch file gives to a node, directly and by files."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from sambot_viz.checks.around.workspace import Package
 
 
 class NodeParameters(NamedTuple):
-    """What a node is given as parameters.
+    """The parameters that a node gets.
 
     Attributes:
-        values: the parameters, of files only those that it reads.
-        files: the files that are here.
-        complete: there are no others.
+        values: the parameters; of files, only those that it reads.
+        files: the files that exist here.
+        complete: the node gets no others.
     """
 
     values: tuple[GivenParameter, ...]
@@ -43,15 +43,15 @@ def given_to(
     name: str,
     namespace: str | None,
 ) -> NodeParameters:
-    """Return what a node is given.
+    """Return the parameters that a node gets.
 
     Args:
         given: as the launch file has it.
-        texts: works out its texts.
-        package: that of the launch file.
-        find: returns a package that is here by its name.
+        texts: evaluates its texts.
+        package: the package of the launch file.
+        find: returns an available package by its name.
         name: of the node.
-        namespace: None for one that is not known.
+        namespace: None for an unknown one.
     """
     values: list[GivenParameter] = []
     files: list[GivenFile] = []

@@ -1,4 +1,4 @@
-"""What a launch file includes."""
+"""Find what a launch file includes."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def installed_as(package: Package, below: str) -> str | None:
 
 
 def actions_of_known(known: KnownLaunch, place: Place) -> Iterator[Action]:
-    """Give the nodes that a launch file of a well-known package starts."""
+    """Yield the nodes that a launch file of a well-known package starts."""
     clock = LaunchArgument("use_sim_time", known.sim_time)
     given: list[Given] = []
     if known.sim_time:

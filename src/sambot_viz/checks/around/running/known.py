@@ -1,4 +1,4 @@
-"""The nodes that are known, from the table nodes.txt."""
+"""Read the known nodes from the table nodes.txt."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ class NodeRow(NamedTuple):
     Attributes:
         verb: "publishes", "subscribes", "transform", "part", or a word with its own
             code.
-        words: what it says, such as a topic and its type.
+        words: its other words, such as a topic and its type.
         unless: the parameter and the value with which it does not hold; else empty.
         when: the parameter and the value with which alone it holds; else empty.
-        everywhere: what holds without that parameter is the same in all distributions.
+        everywhere: the default of that parameter is the same in all distributions.
     """
 
     verb: str
@@ -32,18 +32,18 @@ class NodeRow(NamedTuple):
 
     @property
     def switch(self) -> tuple[str, str]:
-        """The parameter and the value that turn it over; empty without a condition."""
+        """The parameter and the value that switch it; empty without a condition."""
         name, value = self.when
         return (name, "false" if value == "true" else "true") if name else self.unless
 
     @property
     def is_seldom(self) -> bool:
-        """True for what few want."""
+        """True for a topic that few users need."""
         return self.words[-1:] == ("seldom",)
 
     @property
     def latched(self) -> str:
-        """How often a message for later subscribers comes: "once", "often" or ""."""
+        """The frequency of messages for later subscribers: "once", "often" or ""."""
         last = self.words[-1] if self.words else ""
         return last if last in ("once", "often") else ""
 
@@ -54,8 +54,8 @@ class KnownNode(NamedTuple):
     Attributes:
         package: its package.
         programs: its executables, and the class of the same component.
-        name: what it is called when it is given no name.
-        rows: what it publishes, subscribes to and has inside.
+        name: its default name.
+        rows: its publishers, subscriptions, transforms and parts.
     """
 
     package: str
@@ -83,12 +83,12 @@ class KnownLaunch(NamedTuple):
 
 
 class KnownNodes(NamedTuple):
-    """The table.
+    """The table of known nodes, launch files and displays.
 
     Attributes:
         nodes: package and program → the node.
-        names: the name a node has by itself → the node.
-        launches: package and file → what the launch file starts.
+        names: default name of a node → the node.
+        launches: package and file → the launch file.
         displays: class of a display of RViz → the type that it subscribes to.
         tools: class of a tool of RViz → the type that it publishes.
         tool_topics: class of a tool → its topic, and those that it had in ROS 1.

@@ -1,4 +1,4 @@
-"""The parameters that a node gets from files and arguments."""
+"""Read the parameters that a node gets from files and arguments."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ _OPTIONS = {"-r": "remap", "--remap": "remap", "-p": "value", "--params-file": "
 def parameters_for(
     file: YamlFile, name: str, namespace: str | None
 ) -> Iterator[GivenParameter]:
-    """Give the parameters of a file that a node reads.
+    """Yield the parameters of a file that a node reads.
 
     Args:
         file: the file.
         name: of the node.
-        namespace: None for one that is not known, which any in the file fits.
+        namespace: None for an unknown one, which matches any in the file.
     """
     path = None if namespace is None else f"{namespace.rstrip('/')}/{name}"
     for key in file.nodes:
@@ -36,7 +36,7 @@ def parameters_for(
 def located(package: Package, path: str) -> str:
     """Return the path in a package that the relative path of a YAML file means.
 
-    It is relative to where the launch file is run: exactly one file has to fit.
+    It is relative to the working folder, so exactly one file must match.
     """
     if path.startswith("/") or not path.endswith((".yaml", ".yml")):
         return path

@@ -1,4 +1,4 @@
-"""The paths in packages that actions of a launch file name."""
+"""Find the paths in packages that actions of a launch file name."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ _Named = Iterator[tuple[Expression, Place]]
 
 
 def paths_of(action: Action, texts: LaunchTexts) -> Iterator[Fact]:
-    """Give the paths in packages that an action names, with their places.
+    """Yield the paths in packages that an action names, with their places.
 
     Args:
         action: the action.
-        texts: works out its texts.
+        texts: evaluates its texts.
     """
     for value, place in _named(action):
         settled = texts.settled(value)

@@ -1,4 +1,4 @@
-"""The sensors and plugins of a model as nodes: what Gazebo runs for a robot."""
+"""Represent sensors and plugins of a model as nodes, which Gazebo runs."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _SIMULATORS = {
 
 
 def simulated(parts: Sequence[Element]) -> Iterator[RunningNode]:
-    """Give what Gazebo runs for a model, which may not be started.
+    """Yield the nodes that Gazebo runs for a model, even if nothing starts Gazebo.
 
     Args:
         parts: `Robot.gazebo`.
@@ -49,7 +49,7 @@ def simulator_of(words: Sequence[str]) -> tuple[str, tuple[str, ...]] | None:
 
 
 def sensor_node(sensor: Element) -> Iterator[RunningNode]:
-    """Give the node that a <sensor> is; none for one of Gazebo Classic."""
+    """Yield the node for a <sensor>; none for one of Gazebo Classic."""
     if any("libgazebo_" in (c.get("filename") or "") for c in sensor.children):
         return
     kind = (sensor.get("type") or "").removesuffix("_sensor")
@@ -58,7 +58,7 @@ def sensor_node(sensor: Element) -> Iterator[RunningNode]:
 
 def _node(package: str, program: str, name: str, element: Element) -> RunningNode:
     given = tuple(_given(c.tag, c.text, c.place) for c in element.children)
-    # Of two elements Gazebo reads the first one.
+    # Gazebo reads the first of two elements.
     return possible_node(package, program, name, "/", given[::-1], element.place)
 
 

@@ -1,6 +1,6 @@
-"""What runs when launch files are started: nodes, topics and transforms.
+"""Model the running system of launch files: nodes, topics and transforms.
 
-A model of it, not the programs: launch files are read, never run.
+The package reads launch files and never runs them.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ class Endpoint:
     """A topic that a node publishes or subscribes to.
 
     Attributes:
-        topic: its whole name, with namespace and remappings, such as /robot/odom.
-        kind: its type, such as nav_msgs/msg/Odometry; empty when it is not known.
+        topic: its full name, with namespace and remappings, such as /robot/odom.
+        kind: its type, such as nav_msgs/msg/Odometry; empty when unknown.
         publishes: True for a publisher, False for a subscription.
-        place: the line that says so: of a parameter, a bridge's entry or the node.
+        place: the line that defines it: a parameter, a bridge's entry or the node.
         written: the name there, before namespace and remappings.
         parameter: the parameter that names it; empty without one.
-        in_gazebo: it is a topic of Gazebo, not of ROS. One that Gazebo makes up has no
-            topic here, and in written what Gazebo adds to it.
-        is_seldom: few want what it sends.
-        latched: who subscribes later gets the last message too; "once" where no other
+        in_gazebo: it is a topic of Gazebo, not of ROS. For a name that Gazebo
+            generates, `topic` is empty, and `written` has the part that Gazebo adds.
+        is_seldom: few users need it.
+        latched: later subscribers also get the last message; "once" where no other
             follows, else "often".
         typed_at: the line that decides on its type; None where that is not certain.
-        switch: the parameter and the value with which the type or the topic is another.
+        switch: the parameter and the value that change the type or the topic.
     """
 
     topic: str
@@ -86,18 +86,17 @@ class NeededFrame:
 
 @dataclass(frozen=True, slots=True)
 class GivenParameter:
-    """A parameter that a node is given.
+    """A parameter that a node gets.
 
     Attributes:
         name: its name, with dots.
-        values: the text of the value, or of each item of a list; None where it is
-            not known.
+        values: the text of the value, or of each item of a list; None when unknown.
         place: its line.
-        given_at: where the launch file names the file that it is in; None for one
-            that the launch file has itself.
+        given_at: where the launch file names its file; None for a parameter in the
+            launch file itself.
         is_robot: the value is the text of a robot.
-        robot: the command or the file that this text comes from, as far as is known.
-        is_argument: the value is that of a launch argument.
+        robot: the command or the file that returns this text, as far as known.
+        is_argument: the value comes from a launch argument.
     """
 
     name: str
@@ -110,14 +109,14 @@ class GivenParameter:
 
     @property
     def value(self) -> str | None:
-        """The value; None when it is not known, or a list."""
+        """The value; None for an unknown value and for a list."""
         known = self.values is not None and len(self.values) == 1
         return self.values[0] if known and self.values else None
 
 
 @dataclass(frozen=True, slots=True)
 class GivenFile:
-    """A file with parameters that a node is given.
+    """A file with parameters that a node gets.
 
     Attributes:
         shown: the file, as the user would write it.
@@ -135,25 +134,25 @@ class RunningNode:
     """A node that launch files start, or Gazebo.
 
     Attributes:
-        package: its package; empty when it is not known.
+        package: its package; empty when unknown.
         executable: the program.
-        name: what it is called; empty when it is not known.
-        namespace: such as /robot; / at the top, empty when it is not known.
-        starts: whether it does.
-        parameters: what it is given; of two with one name the last counts.
-        parameters_known: there are no others.
+        name: its name; empty when unknown.
+        namespace: such as /robot; / at the top, empty when unknown.
+        starts: whether it starts.
+        parameters: its parameters; of two with one name the last counts.
+        parameters_known: it has no other parameters.
         remappings: topic → topic, as written.
-        arguments: its arguments; None for one that is not known.
-        place: where the launch file has it.
-        chain: where the launch files that lead there are included, first the one
-            that the user starts.
-        endpoints: the topics it publishes and subscribes to, as far as is known.
-        transforms: the transforms it publishes, as far as is known.
+        arguments: its arguments; None for an unknown one.
+        place: its place in the launch file.
+        chain: the places that include the launch files on the way there; the launch
+            file of the user comes first.
+        endpoints: the topics that it publishes and subscribes to, as far as known.
+        transforms: the transforms that it publishes, as far as known.
         needs: the frames that it needs.
         endpoints_known: it has no other topics and transforms.
         is_simulator: it is Gazebo itself.
-        argument_places: the place of each of its arguments, where these have their own.
-        files: the files with parameters that it is given, as far as they are here.
+        argument_places: the place of each argument, where they have separate places.
+        files: its parameter files, as far as they exist here.
     """
 
     package: str
@@ -183,7 +182,7 @@ class RunningNode:
 
     @property
     def path(self) -> str:
-        """The whole name, such as /robot/ekf_filter_node."""
+        """The full name, such as /robot/ekf_filter_node."""
         return f"{self.namespace.rstrip('/')}/{self.name or self.executable}"
 
     @property
@@ -197,17 +196,17 @@ class RunningNode:
         return len({end.in_gazebo for end in self.endpoints}) > 1
 
     def parameter(self, name: str) -> GivenParameter | None:
-        """Return a parameter that it is given; None for others."""
+        """Return one of its parameters; None for a missing one."""
         named = (each for each in reversed(self.parameters) if each.name == name)
         return next(named, None)
 
 
 @dataclass(frozen=True, slots=True)
 class UnknownStart:
-    """Where more may start than is known.
+    """An action that may start unknown nodes.
 
     Attributes:
-        what: the action, such as an include of a package that is not here.
+        what: the action, such as an include of an unavailable package.
         place: its line.
     """
 
@@ -217,16 +216,16 @@ class UnknownStart:
 
 @dataclass(frozen=True)
 class RunningSystem:
-    """What runs when launch files are started.
+    """The system that launch files start.
 
     Attributes:
         launches: the launch files, as the user would write them.
-        nodes: the nodes, also those that do not start, in the order of the files.
-        unknown: where more may start than is known.
+        nodes: all nodes in the order of the files, including those that do not start.
+        unknown: the actions that may start unknown nodes.
         declared: names of the launch arguments.
-        paths: the paths in packages that are given to something, with their places.
-        unclear: launch arguments that are neither true nor false, with their values
-            and where these are set → where they are conditions.
+        paths: the paths in packages that actions use, with their places.
+        unclear: launch arguments that are neither true nor false, with their values and
+            the places that set these → the places that use them as conditions.
     """
 
     launches: tuple[str, ...] = ()
@@ -240,7 +239,7 @@ class RunningSystem:
 
     @property
     def is_whole(self) -> bool:
-        """True when nothing starts but the nodes that are known here."""
+        """True when no nodes start except the known ones."""
         return not self.unknown
 
     @cached_property
@@ -255,13 +254,13 @@ class RunningSystem:
 
     @property
     def is_known(self) -> bool:
-        """True when it is whole, and the topics of all its nodes are known."""
+        """True when all its nodes and their topics are known."""
         return self.is_whole and all(
             node.endpoints_known for node in self.nodes if node.starts != "no"
         )
 
     def endpoints(self, topic: str) -> Iterator[tuple[RunningNode, Endpoint]]:
-        """Give who publishes and who subscribes to a topic, by its whole name."""
+        """Yield the publishers and subscriptions of a topic, by its full name."""
         for node in self.started:
             for endpoint in node.endpoints:
                 if endpoint.topic == topic:
