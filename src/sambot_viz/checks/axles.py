@@ -16,9 +16,9 @@ from sambot_viz.robot.parts import Cylinder, Joint, Language, Shape
 from sambot_viz.robot.slips.wheel_names import SWIVELS, WHEEL
 
 _ACROSS = 0.1
-"""Largest cosine between two directions that are across each other (84°)."""
+"""Largest cosine between two perpendicular directions (84°)."""
 _ALONG = 0.99
-"""Smallest cosine between two directions that are one (8°)."""
+"""Smallest cosine between two equal directions (8°)."""
 
 
 def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
@@ -223,7 +223,7 @@ def _is_across(shape: Shape, axle: Vector3) -> bool:
 
 
 _ALONG_AXIS = {"x": "0 1.5708 0", "y": "1.5708 0 0", "z": "0 0 0"}
-"""Axis → how a cylinder is turned along it."""
+"""Axis → the rotation of a cylinder along it."""
 _UNITS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 
 

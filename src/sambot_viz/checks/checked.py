@@ -204,7 +204,7 @@ _OF_FIRST = frozenset(
     setup-no-robot-model
     """.split()
 )
-"""What the first .rviz file of a package alone is for, or another rule reports."""
+"""Codes for the first .rviz file of a package only, or from another rule."""
 
 
 def _others(package: Package) -> list[Path]:

@@ -11,7 +11,7 @@ from collections.abc import Set
 from sambot_viz.errors import Fix, Place, Problem, Severity
 
 Clues = Set[str]
-"""Names of what speaks for a guess, such as "size" and "density"."""
+"""Names of the clues for a guess, such as "size" and "density"."""
 
 
 def severity(clues: Clues) -> Severity:

@@ -15,7 +15,7 @@ from sambot_viz.edits import apply_edits, by_file, source_of
 from sambot_viz.errors import Edit, Problem, RobotError
 
 _MOST = 3
-"""Maximum number of times that a model is read again."""
+"""Maximum number of times to read a model again."""
 
 Look = Callable[[Subject], list[Problem]]
 """Finds the problems of a robot."""

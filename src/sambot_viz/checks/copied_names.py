@@ -11,7 +11,7 @@ from sambot_viz.edits import source_of, together, write_attribute
 from sambot_viz.errors import Fix, Place, Problem
 
 _COPIED = {"link-duplicate": "link", "joint-duplicate": "joint"}
-"""Code → the element that is there twice."""
+"""Code → the duplicate element."""
 _SIDES = (
     {"left", "right", "front", "rear", "back", "center", "middle"},
     {"l", "r", "f", "b", "fl", "fr", "rl", "rr", "bl", "br", "lf", "rf", "lr"},
@@ -19,7 +19,7 @@ _SIDES = (
     {"top", "bottom"},
     {"first", "second", "third"},
 )
-"""Words of which the names of two like parts have one each."""
+"""Words of which the names of two similar parts have one each."""
 _PIECE = re.compile(r"[A-Za-z]+|\d+|[^A-Za-z\d]+")
 _VALUES = re.compile(r"=\s*[\"']([\w-]+)[\"']|>\s*([\w-]+)\s*<")
 

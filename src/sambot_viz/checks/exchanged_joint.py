@@ -13,7 +13,7 @@ from sambot_viz.robot.parts import Joint, Language
 _WORDS = re.compile(r"[^\W_]+")
 _BASES = frozenset("base body chassis footprint frame platform root world".split())
 _OF_ALL = frozenset("joint link to".split())
-"""Words that say nothing about which part is meant."""
+"""Words that do not identify a part."""
 
 
 def exchanged_joint(subject: Subject) -> Iterator[Problem]:

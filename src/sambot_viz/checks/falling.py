@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh
 
 _SMALLEST_SHARE = 0.02
-"""A centre of mass that is less beyond the edge may be right [size of the robot]."""
+"""Tolerance for a centre of mass beyond the edge [size of the robot]."""
 _CAUGHT = 0.05
-"""What is lower keeps it from falling, nearly level [size of the robot]."""
+"""Height below which a part keeps the robot nearly level [size of the robot]."""
 _CASTER = re.compile("(?<!broad)cast[eo]r", re.IGNORECASE)
-"""What is called so is meant to stand on the ground."""
+"""Names of parts that should touch the ground."""
 _FEWEST_WHEELS = 2
 _FEWEST_CONTACTS = 3
 

@@ -11,7 +11,7 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Cylinder, Joint, Language, Shape
 
 _UPRIGHT = 0.99
-"""Smallest cosine between a direction and the upright one (8°)."""
+"""Smallest cosine between an upright direction and the vertical (8°)."""
 _LEVEL = 0.1
 
 

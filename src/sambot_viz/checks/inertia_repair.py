@@ -16,12 +16,12 @@ _MOMENTS = ("ixx", "iyy", "izz")
 _PRODUCTS = ("ixy", "ixz", "iyz")
 _AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), UP)
 _SAME = 0.05
-"""Moments that differ by such a share are the same."""
+"""Relative difference up to which moments are equal."""
 _NEAR = 1e-3
-"""Centres that are so near are the same [m]."""
+"""Distance up to which centres are equal [m]."""
 
 IsBody = Callable[[Inertial], bool]
-"""Tells whether a real body can have an inertia."""
+"""Returns whether a real body can have an inertia."""
 
 
 def repaired(link: Link, is_body: IsBody) -> Fix | None:

@@ -12,7 +12,7 @@ from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.model import Robot
 
 _OF_ARGUMENTS = ("xacro-argument", "xacro-include", "xacro-package", "xacro-yaml")
-"""Beginnings of codes of what another value of an argument may bring about."""
+"""Beginnings of codes of problems that another value of an argument may cause."""
 
 
 def launched(target: CheckedModel) -> tuple[dict[str, str], ...]:

@@ -27,16 +27,16 @@ if TYPE_CHECKING:
     from sambot_viz.checks.rewritten import Rewriting
 
 LENGTHS = ("size", "radius", "length")
-"""What has the lengths of a shape."""
+"""Attributes and elements with the lengths of a shape."""
 _HOUSE, _ROOM = 15.0, 4.0
-"""Sides of a shape [m]: the longest is longer, and the shortest is longer."""
+"""Lower bounds for the longest and the shortest side of a huge shape [m]."""
 UNITS = {"centimetres": 0.01, "millimetres": 0.001}
 _USUAL = 0.3
-"""Usual size of a robot [m], where its joints do not say."""
+"""Usual size of a robot [m], where its joints do not show it."""
 _NEAR = 0.05
-"""Joints that are nearer to each other say nothing of the size of a robot [m]."""
+"""Distance of joints below which they do not show the size of a robot [m]."""
 _THINNEST = 0.001
-"""No part is thinner [m]."""
+"""Lower bound for the thickness of a part [m]."""
 _BESIDE = 2.0
 """A shape larger than the whole robot by this factor is in another unit."""
 _APART = 5.0
@@ -156,7 +156,7 @@ def _origins(subject: Subject) -> Iterator[Origin]:
 
 
 _FOAM = 10.0
-"""What is less dense is nothing that robots are made of [kg/m³]."""
+"""Lower bound for the density of materials of robots [kg/m³]."""
 
 
 def is_lighter_than_foam(link: Link) -> bool:

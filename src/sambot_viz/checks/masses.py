@@ -16,12 +16,12 @@ _DENSEST = 25_000.0
 _TIMES = 2.0
 """Factor over the mass of all other links; small shapes may represent large parts."""
 _TINY = 0.02
-"""A shape of such a size may stand for a part that nobody has measured [m]."""
+"""Size of a placeholder shape for an unmeasured part [m]."""
 _WHOLE = 50.0
-"""Masses of parts from there on are seldom whole [kg]."""
+"""Mass from which the masses of parts are seldom whole numbers [kg]."""
 _GRAMS = 1000.0
 _LIGHT = 1.0
-"""A mass that is less may be meant [kg]."""
+"""Mass below which a value may be intended [kg]."""
 
 
 def masses_in_grams(subject: Subject) -> Iterator[Problem]:

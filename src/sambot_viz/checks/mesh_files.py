@@ -19,16 +19,16 @@ if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh, MeshPart
 
 _AT_ONCE = 1000
-"""The first thousand triangles nearly always have one that can be seen."""
+"""Number of triangles to search; the first ones nearly always include a visible one."""
 _WITHOUT_UNIT = (".stl", ".stlb", ".obj", ".ply")
 _TOO_LARGE = 15.0
 _NONSENSE = 1e6
-"""Nothing that was drawn in a smaller unit is so large [m]."""
+"""Size that no mesh in a smaller unit reaches [m]."""
 _TOO_SMALL = 0.0005
 _BESIDE = 5.0
 """A mesh larger than the places of all joints by this factor is not a robot's part."""
 _FLAT = 0.002
-"""A mesh that is thinner than this share of its size is a floor or a wall."""
+"""Thickness, as a share of the size, below which a mesh is a floor or a wall."""
 
 
 class MeshFiles:

@@ -84,7 +84,7 @@ RULES: tuple[Rule, ...] = (
     sensor_words,
     gazebo_words,
 )
-"""The rules about the model itself, in the order in which they run."""
+"""The rules about the model itself, in their order."""
 
 AROUND: tuple[Rule, ...] = (launch_text_as_yaml, names_that_must_meet)
 """The rules about a model and its packages."""
@@ -99,7 +99,7 @@ _CAUSES: tuple[Rule, ...] = (
     unlike_twins,
     wheels_off_the_ground,
 )
-"""The rules about a model that say what others follow from."""
+"""The rules about a model whose findings cause others."""
 
 _ORDER = {"error": 0, "warning": 1, "info": 2}
 

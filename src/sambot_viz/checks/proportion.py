@@ -24,24 +24,24 @@ if TYPE_CHECKING:
     from sambot_viz.robot.xacro.diagnose.source_files import SourceSet
 
 _TIMES, _TIMES_WITH_MESHES = 4.5, 8.0
-"""Factor over the size of all others; the sizes of meshes are not known here."""
+"""Factor over the size of all others; the sizes of meshes are unknown here."""
 _LARGE = 1.5
-"""What is smaller may be right [m]."""
+"""Length below which a value may be right [m]."""
 _THIN = 0.001
-"""A shape is a plane when it is so thin, as a share of its length."""
+"""Thickness, as a share of the length, below which a shape is a plane."""
 _SMALL = 0.01
-"""What is smaller says nothing of the size of a robot [m]."""
+"""Length below which a part does not show the size of a robot [m]."""
 _LEAST, _SHARE = 8, 0.25
-"""So many others are needed, and no more than this share may stand out."""
+"""Required number of others, and the greatest share of outliers."""
 _MOST = 4
-"""More elements than these are not one slip."""
+"""Maximum number of elements in one slip."""
 _CARRIES = 2.5
 """Factor by which a part that carries the others may be larger than these."""
 _WHOLE = 10.0
-"""Whole numbers from there on are seldom metres [m]."""
+"""Size from which whole numbers are seldom metres [m]."""
 _UNIT_IN_NAME = re.compile(r"(?<![a-z])[cm]m(?![a-z])|milli|centi", re.IGNORECASE)
 _LINES, _ELEMENT = 4, 2000
-"""Of its element a property is looked for in so many lines, and characters."""
+"""Numbers of lines and of characters of an element to search for a property."""
 
 
 class _Written(NamedTuple):

@@ -16,7 +16,7 @@ _TAGS = re.compile(r"<(?=(?:xacro:)?\w)")
 _DEEPEST = 4
 
 Change = Callable[[float], float]
-"""Returns the number that is right for one that is written."""
+"""Returns the right number for a wrong one."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,10 +27,10 @@ _SYNONYMS = {
     "frameid": "gz_frame_id",
 }
 _ANGLES = ("horizontal_fov",)
-"""Angles of more than a full turn are the finding of another rule."""
+"""Angles, whose values above a full turn another rule reports."""
 _BELOW_ZERO = re.compile(r"-(?=.*[1-9])[\d.]+")
 _BESIDE = frozenset({"gz_frame_id", "ignition_frame_id"})
-"""Elements that Gazebo reads in a sensor, and the table of SDF does not have."""
+"""Elements that Gazebo reads in a sensor, and that the table of SDF lacks."""
 
 
 @cache

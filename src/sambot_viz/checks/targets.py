@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 _GIVE = "the robot's model and --workspace"
 _MOST_MODELS = 12
-"""The models of a package are all checked, when it has no more, and no main one."""
+"""Maximum number of models to check all, in a package without a main one."""
 _LAUNCHES = (
     "launch.py",
     ".launch",

@@ -16,7 +16,7 @@ _ROTOR = re.compile(
 )
 _SIDES = re.compile("left|right|wheel", re.IGNORECASE)
 _SAME = 0.01
-"""Places and sizes that differ by less are the same [m]."""
+"""Difference below which places and sizes are equal [m]."""
 
 
 def is_rotor(joint: Joint) -> bool:

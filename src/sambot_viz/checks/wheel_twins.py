@@ -19,12 +19,12 @@ from sambot_viz.robot.slips.wheel_names import WHEEL
 
 _LEFT = re.compile(r"left|(?<![a-z])[fbrm]?l[fbr]?(?![a-z])", re.IGNORECASE)
 _RIGHT = (("left", "right"), ("Left", "Right"), ("l(?!eft)", "r"), ("L(?!eft)", "R"))
-"""What the name of the right wheel has in its place."""
+"""Left → right: words in the names of twins."""
 _CODE = "wheel-unlike-twin"
 _OFF = 0.02
-"""Lengths that differ by less, as a share, are the same."""
+"""Relative difference below which lengths are equal."""
 _ALONG = 0.99
-"""Smallest cosine between two directions that are one (8°)."""
+"""Smallest cosine between two equal directions (8°)."""
 
 
 class _Twins(NamedTuple):

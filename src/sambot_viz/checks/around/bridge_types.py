@@ -15,7 +15,7 @@ from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _PAIRS = vocabulary("ros_gz_bridge")
-"""ROS type → the types of Gazebo that ros_gz_bridge turns it into."""
+"""ROS type → the types of Gazebo to which ros_gz_bridge converts it."""
 
 _GZ_TYPES = frozenset(kind for kinds in _PAIRS.values() for kind in kinds)
 _OTHER_GZ_TYPES = frozenset(

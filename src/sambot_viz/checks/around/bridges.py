@@ -26,7 +26,7 @@ from sambot_viz.robot.xml.element import Element
 
 _TO_ROS, _TO_GZ, _BOTH = DIRECTIONS
 _OF_IMAGES = "image_bridge"
-"""Carries only images, and finds their types itself."""
+"""A bridge that carries only images, and finds their types itself."""
 _BRIDGES = ("parameter_bridge", _OF_IMAGES)
 
 
@@ -198,7 +198,7 @@ def scoped_frames(around: Surroundings) -> Iterator[Problem]:
 
 
 _PLACED = frozenset({"LaserScan", "PointCloudPacked"})
-"""Messages that are of no use without a transform."""
+"""Messages that are useless without a transform."""
 
 
 def _names_frame(sensor: Element) -> bool:

@@ -31,7 +31,7 @@ _WITHOUT_AMENT = frozenset(
     yaml-cpp zlib
     """.split()
 )
-"""What CMake finds outside of ROS; packages of ROS bring the commands of ament."""
+"""Names that CMake finds outside ROS; ROS packages bring the commands of ament."""
 _LISTS = frozenset({"COMPONENTS", "OPTIONAL_COMPONENTS", "NAMES", "HINTS", "PATHS"})
 """Words of find_package that have names after them."""
 _END = "ament_package"

@@ -29,12 +29,12 @@ _OF_MODELS = (
     "_planar_move.so",
     "ros2_control.so",
 )
-"""Ends of plugins that belong to a model."""
+"""Endings of plugin names that belong to a model."""
 _MESSAGES = tuple(
     f"sensor_msgs/{name}"
     for name in ("LaserScan", "PointCloud", "PointCloud2", "Range")
 )
-"""What a lidar of Classic publishes."""
+"""The message types of a Classic lidar."""
 
 
 def unknown_libraries(robot: Robot) -> Iterator[Problem]:

@@ -24,7 +24,7 @@ _ARGUMENT = "/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock"
 _CLOCK = "use_sim_time"
 _WITHOUT_TIME = frozenset({"parameter_bridge", "create", "spawn_entity.py", "spawner"})
 _WITHOUT_CLOCK = frozenset({"ros_gz_sim", "nav2_bringup", "slam_toolbox"})
-"""Their launch files bring no clock."""
+"""Packages whose launch files start no clock."""
 
 
 def different_clocks(around: Surroundings) -> Iterator[Problem]:

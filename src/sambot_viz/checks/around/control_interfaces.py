@@ -22,9 +22,9 @@ from sambot_viz.robot.xml.element import Element
 _CODE = "control-interface"
 _COMMAND, _STATE = "command_interface", "state_interface"
 _USUAL = "position"
-"""Of a controller and a joint that differ, the one with this is right."""
+"""The right interface where a controller and a joint differ."""
 _COVERED = frozenset({"left_wheel_names", "right_wheel_names"})
-"""Wheels that the robot does not have are the finding of another rule."""
+"""Parameters for wheels, whose missing joints another rule reports."""
 
 
 class _NeededInterface(NamedTuple):

@@ -43,7 +43,7 @@ _HARDWARE = (
     "fake_components/GenericSystem",
     "topic_based_ros2_control/TopicBasedSystem",
 )
-"""Hardware that needs no code of one's own."""
+"""Hardware that needs no code from the user."""
 
 
 def words_of_control(robot: Robot) -> Iterator[Problem]:

@@ -28,7 +28,7 @@ _WITH_VALUE = frozenset(
 """Options of the spawner that have a value."""
 _OPTION = re.compile(r"--?[a-z-]*")
 _GENERIC = frozenset({"broadcaster", "controller"})
-"""Words of many names."""
+"""Words that many names share."""
 _LIKENESS, _LIKE_CLASS = 0.9, 0.5
 
 

@@ -23,7 +23,7 @@ _OPEN = re.compile(
     r"dynamic_typing|allow_undeclared_parameters|"
     r"automatically_declare_parameters_from_overrides"
 )
-"""With one of these a node takes parameters of any name or type."""
+"""Calls with which a node accepts parameters of any name or type."""
 _NODE = re.compile(
     r"(?:__init__|create_node|\bNode|make_shared<[\w:]*Node>)\s*\(\s*(?:self\s*,\s*)?"
     r"['\"](\w+)['\"]"

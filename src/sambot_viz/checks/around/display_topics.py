@@ -25,15 +25,15 @@ from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Place, Problem, Severity
 
 _SENSED = frozenset("Image Imu LaserScan NavSatFix Odometry PointCloud2".split())
-"""What robots have few sources of; others come from nodes that start later too."""
+"""Types with few sources on a robot; nodes that start later also send others."""
 _OF_SENSORS = frozenset("Imu LaserScan NavSatFix".split())
-"""What hardly a node works out of other messages."""
+"""Types that hardly any node computes from other messages."""
 _CARRIED = frozenset(kind.rpartition("/")[2] for kind in vocabulary("ros_gz_bridge"))
 _MODEL = "String"
-"""The type of robot descriptions, which the check of the config looks at."""
+"""The type of robot descriptions, which the check of the config handles."""
 
 Shown = Sequence[tuple[str, DisplayTopic]]
-"""The displays of a config with the whole names of their topics."""
+"""The displays of a config with the full names of their topics."""
 
 
 def unseen_topics(around: Surroundings) -> Iterator[Problem]:

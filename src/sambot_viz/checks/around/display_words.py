@@ -28,19 +28,19 @@ _OPEN = frozenset(
     Displays Frames Links Namespaces Saved Tools Transformation Tree Views Visibility
     """.split()
 ) | {"Global Options"}
-"""What names in a robot or a topic are below, or other displays, tools and views."""
+"""Keys above names of a robot or topic, or above other displays, tools and views."""
 _GLOBAL = {
     name: f"rviz_common/{name}" for name in ("Visualization Manager", "Global Options")
 }
 """Maps without a class that RViz itself reads."""
 _CLASS = re.compile(r"[A-Za-z][\w: /-]*")
 _OF_ALL = ("Class", "Enabled", "Name", "Topic")
-"""Properties that the displays of other packages have too."""
+"""Properties that displays of other packages also have."""
 _ON = ("Enabled", "Value")
-"""Either of them switches a display on."""
+"""Keys that switch a display on."""
 _LIKE_PROPERTY, _LIKE_CLASS = 0.8, 0.87
 _FRAMES, _FIXED = ("Target Frame", "Reference Frame"), "<Fixed Frame>"
-"""Properties that name a frame, and what stands there for the fixed one."""
+"""Properties that name a frame, and the text that means the fixed frame."""
 
 
 class _Settings(NamedTuple):

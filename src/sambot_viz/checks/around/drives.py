@@ -48,12 +48,12 @@ _MEANT = {
     "wheel_base": "wheel_separation",
     "wheel_distance": "wheel_separation",
 }
-"""What other programs call an element of Gazebo's differential drive."""
+"""Names in other programs for elements of Gazebo's differential drive."""
 _ALIKE = 0.9
 _ALONG = 0.99
-"""Least cosine between two directions that are one."""
+"""Least cosine between two equal directions."""
 _AHEAD = 0.1
-"""One wheel may be so far in front of the other [distance of both]."""
+"""Tolerance for one wheel in front of the other [distance of both]."""
 
 
 def misspelt_elements(robot: Robot) -> Iterator[Problem]:

@@ -10,7 +10,7 @@ from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Problem
 
 _USED = {"odom": (6, 7, 11), "imu": (5, 11), "pose": (0, 1, 5), "twist": (6, 7, 11)}
-"""Kind of sensor → the values that are usually taken from it, by their numbers."""
+"""Kind of sensor → the values that filters usually use, by their numbers."""
 
 
 def inputs_without_config(around: Surroundings) -> Iterator[Problem]:

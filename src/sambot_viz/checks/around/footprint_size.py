@@ -19,7 +19,7 @@ _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _SMALLEST_GAP = 0.03
 _SHARE = 0.15
 _TOO_LARGE, _TOO_LARGE_WITH_ARM = 2.0, 5.0
-"""Factor over what the robot needs: less may be meant to keep a distance."""
+"""Factor over the size of the robot; a lower one may keep a distance on purpose."""
 
 _STEPS = 16
 _CIRCLE = tuple(

@@ -19,7 +19,7 @@ _ALONE = frozenset(
     "ament_cmake ament_cmake_python ament_cmake_ros ament_lint_auto rclcpp rclpy "
     "rosidl_default_generators".split()
 )
-"""Packages that bring no messages but their own."""
+"""Packages that bring only their own messages."""
 _OF_RCLCPP = frozenset(
     "builtin_interfaces rcl_interfaces rosgraph_msgs statistics_msgs".split()
 )

@@ -34,7 +34,7 @@ _BASES: dict[str, tuple[str, ...]] = {
     "base_frame": ("slam_toolbox",),
 }
 _WHEELS = "left_wheel_names"
-"""Controllers with this parameter have a base_frame_id too."""
+"""Controllers with this parameter also have a base_frame_id."""
 """Parameter for a frame of the robot → the nodes that have it; "" for any."""
 
 _ODOMS: dict[str, tuple[str, ...]] = {
@@ -49,9 +49,9 @@ DRIVE_BASES = ("robot_base_frame", "robotBaseFrame", "child_frame_id")
 DRIVE_ODOMS = ("odometry_frame", "odometryFrame", "frame_id")
 """Elements in which a drive names the frame of odometry."""
 _NO_BASE = frozenset({"map", "odom", "world"})
-"""Frames that are no part of a robot; sensors may report in them."""
+"""Frames outside the robot; sensors may report in them."""
 _MISSPELT = 0.8
-"""A frame that is as like a link is that link, misspelt; another one may be turned."""
+"""Similarity of a misspelt link; a less similar frame may have other axes."""
 
 
 def unknown_frames(around: Surroundings) -> Iterator[Problem]:

@@ -28,14 +28,14 @@ _ELEMENTS = {
     "robot_base_frame": ("child_frame_id", "the same"),
     "command_topic": ("topic", "the same"),
 }
-"""Elements of Classic's differential drive, and what Gazebo's reads instead."""
+"""Elements of Classic's differential drive, and those that Gazebo's reads instead."""
 
 _HARDWARE: dict[str, tuple[Generation, str]] = {
     "gazebo_ros2_control/GazeboSystem": ("classic", "gazebo_ros2_control"),
     "gz_ros2_control/GazeboSimSystem": ("gz", "gz_ros2_control"),
     "ign_ros2_control/IgnitionSystem": ("gz", "ign_ros2_control"),
 }
-"""Hardware of ros2_control → its Gazebo, and what the plugin for it is called."""
+"""Hardware of ros2_control → its Gazebo, and the name of its plugin."""
 
 _XACRO_PY = re.compile(r"(^|[\s/])xacro\.py\b")
 _BUILD_TYPE = re.compile(r"<build_type>\s*(ament_\w+)")

@@ -65,4 +65,4 @@ IN_MODEL_OF_ROS2: frozenset[Callable[[Robot], Iterable[Problem]]] = frozenset(
         words_of_plugins,
     }
 )
-"""Those that know only what Gazebo for ROS 2 reads."""
+"""The rules that know only what Gazebo for ROS 2 reads."""

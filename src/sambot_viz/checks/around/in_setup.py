@@ -41,4 +41,4 @@ IN_SETUP: tuple[Callable[[SetupFile, Surroundings], Iterable[Problem]], ...] = (
     programs_elsewhere,
     misspelt_targets,
 )
-"""The rules; they know only what builds packages of ROS 2."""
+"""The rules; they know only the build of ROS 2 packages."""

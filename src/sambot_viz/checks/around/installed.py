@@ -35,7 +35,7 @@ _UNCERTAIN = frozenset(
 _SHARES = ("share", "${CMAKE_INSTALL_DATADIR}")
 _OF_PACKAGE = "share/${PROJECT_NAME}"
 _NOT_INSTALLED = frozenset({"doc", "docs", "example", "examples", "test", "tests"})
-"""Launch files in these are started by their path."""
+"""Folders whose launch files users start by path."""
 
 
 def not_installed(around: Surroundings) -> Iterator[Problem]:

@@ -41,7 +41,7 @@ _OTHER_SIDE = {
 _LINK = "_link"
 _SCOPED = ("::", "/", ",", " ")
 _LIKE_NAME, _LIKE_LETTERS = 0.7, 0.9
-"""How much two names have in common: a similar name, and a name with a wrong letter."""
+"""Similarity of two names: for a similar name, and for one with a wrong letter."""
 
 
 def unknown_joints(robot: Robot) -> Iterator[Problem]:

@@ -33,7 +33,7 @@ _NEEDED = {
     "RegisterEventHandler": "event_handler",
     "UnlessCondition": "predicate_expression",
 }
-"""Call → the argument without which it is an error."""
+"""Call → its required argument."""
 _ENDINGS = (".yaml", ".yml", ".sdf", ".world", ".rviz")
 
 

@@ -18,7 +18,7 @@ _STOPS = "ros2 launch stops with it"
 _REGISTER = "RegisterEventHandler"
 _HANDLERS = ("OnExecutionComplete", "OnProcessExit", "OnProcessIO", "OnProcessStart")
 _ENDING = frozenset({"create", "spawn_entity.py", "spawner", "spawner.py"})
-"""Programs that end by themselves, so that others can wait for that."""
+"""Programs that end by themselves, so that handlers can wait for their end."""
 _LISTS = {
     "LaunchDescription": ("initial_entities", 0),
     "GroupAction": ("actions", 0),

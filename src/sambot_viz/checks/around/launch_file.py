@@ -29,11 +29,11 @@ NODES = frozenset({"Node", "LifecycleNode"})
 """Actions that start a node."""
 
 _LISTS = frozenset({"arguments", "cmd", "parameters", "remappings"})
-"""Arguments that are lists of several texts, and not the parts of one."""
+"""Arguments that are lists of texts, not the parts of one text."""
 _JOINS = frozenset({"join", "PathJoinSubstitution"})
 _WRAPPERS = frozenset({"Path", "str", "ParameterValue"})
 _OPTION = re.compile(r"--?[a-z][\w-]*(=\S*)?|\d+", re.IGNORECASE)
-"""An option of a program, or the number that one has."""
+"""An option of a program, or the number after one."""
 
 
 class LaunchNode(NamedTuple):

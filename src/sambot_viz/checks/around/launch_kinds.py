@@ -30,9 +30,9 @@ _LISTS = {
     "remappings": _STOPS,
     "arguments": "the program gets each of its letters as an argument",
 }
-"""Argument of a node that is a list → what happens when it is none."""
+"""Argument of a node that is a list → the effect of another kind."""
 _SHORT = 3
-"""So long a name may be one letter from many others."""
+"""Length up to which a name may be one letter from many others."""
 _TRUTH = frozenset({"true", "false", "1", "0"})
 _SUBSTITUTION = re.compile(r"\$\(\s*(find|find-pkg-share|var|arg)\s+([\w.-]+)\s*\)")
 _IN_PYTHON = {

@@ -23,7 +23,7 @@ _MEMBERS: dict[str, Sequence[str]] = {
     "PathJoinSubstitution": _OF_SUBSTITUTIONS,
     "LaunchDescription": ("add_action", "add_entity", "entities", "describe", "visit"),
 }
-"""Call → the members of what it gives."""
+"""Call → the members of its result."""
 _OTHER_SCOPES = (
     ast.FunctionDef,
     ast.AsyncFunctionDef,

@@ -28,7 +28,7 @@ OWN_NAMES = {
     "sync_slam_toolbox_node": "slam_toolbox",
     "ros2_control_node": "controller_manager",
 }
-"""Programs whose nodes have other names than the programs."""
+"""Programs whose nodes have different names."""
 
 _FOUND = re.compile(r"\$\(find ([\w-]+)\)/([^$\s]+)")
 _ASKING = frozenset({"exists", "isfile", "is_file", "write_text"})
@@ -37,7 +37,7 @@ _IN_SHARE = re.compile(
     r"(FILES|PROGRAMS|DIRECTORY[^)]*/)\s[^)]*DESTINATION\s+[\"']?(share|\$\{CMAKE_INSTALL_"
     r"DATADIR\})/\$\{PROJECT_NAME\}/?[\"']?\s*\)"
 )
-"""Installs files, or what is in a folder, into the share folder of the package."""
+"""A command that installs files or the contents of a folder into the share folder."""
 _FILE = re.compile(r"[\w/.-]*\.(\w{4,5})")
 _ENDINGS = frozenset({"rviz", "urdf", "world", "xacro", "yaml"})
 _WORLDS = (".sdf", ".world", ".wbt")

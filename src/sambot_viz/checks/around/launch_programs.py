@@ -18,7 +18,7 @@ from sambot_viz.errors import Place, Problem, nearest
 
 _ALIKE = 0.85
 _IN_PATH = frozenset({"rviz2"})
-"""Programs that are found without a package."""
+"""Programs that launch finds without a package."""
 
 
 class _Program(NamedTuple):

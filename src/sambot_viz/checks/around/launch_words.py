@@ -42,7 +42,7 @@ _COMMAND = WordKind(
 _DOLLAR = re.compile(r"\$\(\s*([\w-]+)")
 _OLD = frozenset({"type", "rosparam", "$find", "$arg"})
 _NEW = frozenset({"exec", "let", "$var", "$find-pkg-share", "composable_node"})
-"""Words that only launch files of ROS 1, or only those of ROS 2, have."""
+"""Words that exist only in launch files of ROS 1, or only in those of ROS 2."""
 
 
 def unknown_keywords(around: Surroundings) -> Iterator[Problem]:

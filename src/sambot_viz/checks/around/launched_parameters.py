@@ -22,7 +22,7 @@ from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.robot.xml.element import Element
 
 _OWN_RULES = frozenset({"use_sim_time", "robot_description"})
-"""What has rules of its own."""
+"""Parameters with separate rules."""
 _TYPES = {"bool": "boolean", "int": "integer", "float": "number", "str": "string"}
 
 

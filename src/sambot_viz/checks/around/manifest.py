@@ -23,7 +23,7 @@ _REQUIRED = {
     "maintainer": '<maintainer email="me@example.org">me</maintainer>',
     "license": "<license>MIT</license>",
 }
-"""What each package.xml needs, and a line for it."""
+"""Elements that each package.xml needs, each with a line for it."""
 
 _BUILD_FILES = {"ament_cmake": "CMakeLists.txt", "ament_python": "setup.py"}
 

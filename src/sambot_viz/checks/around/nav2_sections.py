@@ -23,7 +23,7 @@ _NODES = frozenset(
 )
 _LIKENESS = 0.85
 _LONG = 6
-"""So many letters has a name that hardly another one is like."""
+"""Length from which a name is similar to hardly any other."""
 
 
 def unread_sections(around: Surroundings) -> Iterator[Problem]:

@@ -21,7 +21,7 @@ from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Place, Problem
 
 _FRAMES = {"map_frame": "map", "odom_frame": "odom", "base_link_frame": "base_link"}
-"""Frames of a filter, which are all different → their defaults."""
+"""Frames of a filter, all different → their defaults."""
 
 
 def unpublished_odometry(around: Surroundings) -> Iterator[Problem]:

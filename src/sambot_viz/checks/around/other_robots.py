@@ -26,7 +26,7 @@ _OF_ROBOT = {
 }
 """Code → the parameters whose values only one robot has."""
 _SIZES = frozenset({"footprint-size", "drive-wheel-separation", "drive-wheel-radius"})
-"""What is said of numbers that two robots may share by chance."""
+"""Codes of findings about numbers that two robots may share by chance."""
 _MODELS = (".urdf", ".xacro", ".sdf")
 _Model = tuple[Package, str]
 _IS_ROBOT = re.compile(r"<(robot|model)\b[^>]*\bname\s*=")
@@ -38,7 +38,7 @@ _GENERAL = frozenset(
     yml
     """.split()
 )
-"""Words in the names of files that name no robot."""
+"""Words in file names that do not name a robot."""
 _WORDS = re.compile(r"[/._-]")
 
 

@@ -28,7 +28,7 @@ _PARTS = frozenset(
     simulator slam support teleop tests tools utils viz
     """.split()
 )
-"""What the names of the packages of one robot end with."""
+"""Endings of package names of one robot."""
 
 
 def setup_name(around: Surroundings) -> Iterator[Problem]:

@@ -29,7 +29,7 @@ _KEY = "ros__parameters"
 _DECIMAL_COMMA = re.compile(r"-?\d+,\d+")
 _TRUTH = ("true", "false")
 WORDS = frozenset({"rue", "tree", "tue"})
-"""Words of their own that are almost true or false."""
+"""Real words that are similar to true or false."""
 _LONG = 4
 _MAP = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
 _MODES = ("trinary", "scale", "raw")

@@ -26,10 +26,10 @@ _UNITS = {
     "deg": math.pi / 180,
     "°": math.pi / 180,
 }
-"""Units → what they are in metres, seconds and radians."""
+"""Unit → its size in metres, seconds or radians."""
 OPEN = re.compile(r"[$<{}~]|null", re.IGNORECASE)
 REPLACED = re.compile(r"[A-Z]+(?:_[A-Z]+)+")
-"""A value that a launch file puts another one in place of."""
+"""A value that a launch file replaces."""
 
 WANTED: Mapping[str, str] = {
     "number": "a number with a decimal point",

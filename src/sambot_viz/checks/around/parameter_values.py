@@ -31,14 +31,14 @@ from sambot_viz.errors import Fix, Place, Problem, nearest
 
 _LIKENESS = 0.8
 _LINES = 3
-"""So many lines with the same number of items show how a list is laid out."""
+"""Number of lines with equally many items that show the layout of a list."""
 _KINDS = {
     "frame": "string",
     "section": "string",
     "sections": "strings",
     "sources": "string",
 }
-"""Kind of a parameter → the type of its value, where that has another name."""
+"""Kind of a parameter → the type of its value, where the names differ."""
 
 
 def wrong_values(around: Surroundings) -> Iterator[Problem]:

@@ -11,7 +11,7 @@ from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _FRAME = re.compile(r"(^|_)frame(_id)?$", re.IGNORECASE)
-"""Parameters with such a name say a frame."""
+"""Parameters with such a name contain a frame."""
 _MAPS = re.compile(
     r"\b(nav2_\w+|amcl|map_server|slam_toolbox|cartographer_ros|rtabmap\w*"
     r"|robot_localization)\b"

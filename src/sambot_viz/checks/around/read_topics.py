@@ -16,7 +16,7 @@ from sambot_viz.errors import Problem, nearest
 
 _FILTERED = "odometry/filtered"
 _COMMANDS = frozenset({"Twist", "TwistStamped"})
-"""Who sends these is often started by hand."""
+"""Types whose publishers users often start by hand."""
 
 
 class Published(NamedTuple):

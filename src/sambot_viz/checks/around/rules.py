@@ -240,7 +240,7 @@ OF_BUILD: tuple[Check, ...] = (
     missing_folders,
     not_installed,
 )
-"""The rules about one package at a time: how it is built and installed."""
+"""The rules about the build and the installation of one package at a time."""
 
 OF_FILES: tuple[Check, ...] = (
     unreadable_yaml,

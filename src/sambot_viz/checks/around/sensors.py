@@ -33,7 +33,7 @@ from sambot_viz.robot.xml.element import Element
 _SIMULATORS = ("Gazebo", "Gazebo Classic")
 _OF_GZ = {"ray": "gpu_lidar", "lidar": "gpu_lidar"}
 _OF_CLASSIC = {"lidar": "ray", "gpu_lidar": "gpu_ray"}
-"""Type of a lidar that a simulator does not compute → that which it has for it."""
+"""Type of a lidar that a simulator does not have → its replacement there."""
 _OF_JOINTS = ("force_torque",)
 _ANGLES = ("min_angle", "max_angle", "horizontal_fov")
 _FRAMES = ("frame_id", "frame", "sensor_frame", "optical_frame_id", "link_frame")
@@ -41,7 +41,7 @@ _LIKENESS = 0.75
 _TURN = 360.0
 _FULL_TURN = 2 * math.pi + 0.01
 _NEAR, _FAR = 1.0, 5.0
-"""A sensor sees from so near on [m], or so many times as far; else one end is wrong."""
+"""Bounds of a sensor's range [m] and of its ratio; outside them one end is wrong."""
 _LIMITS = (("range", "min", "max"), ("clip", "near", "far"))
 
 

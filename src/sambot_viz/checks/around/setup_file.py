@@ -34,7 +34,7 @@ _WRITING = frozenset(
     "makedirs mkdir Popen run symlink system touch write write_text".split()
 )
 INDEX = "share/ament_index/resource_index/packages"
-"""Where the mark of a package is installed."""
+"""The installed folder of a package's mark."""
 _GLOBS = ("glob", "iglob")
 
 

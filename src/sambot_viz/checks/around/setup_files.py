@@ -16,7 +16,7 @@ from sambot_viz.edits import write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
 
 _MARK = "__init__.py"
-"""The file that makes a folder a package of Python."""
+"""The file that makes a folder a Python package."""
 
 
 def missing_data_files(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:

@@ -23,7 +23,7 @@ _OF_BODY = 0.05
 _RADIUS_OFF = 0.1
 _SKIDDING = 4
 _SAME_PLACE = 0.001
-"""Wheels that are nearer have no separation [m]."""
+"""Distance below which wheels have no separation [m]."""
 
 
 class _Drive(NamedTuple):

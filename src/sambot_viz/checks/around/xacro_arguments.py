@@ -17,7 +17,7 @@ from sambot_viz.checks.around.running.system import Starts
 from sambot_viz.checks.around.workspace import Package
 
 _MOST = 3
-"""Variants of one model that are read beside the first."""
+"""Maximum number of variants of a model besides the first."""
 _DECLARED = re.compile(r"<xacro:arg\s[^>]*>")
 _ATTRIBUTE = re.compile(r"""\b(name|default)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 

@@ -32,11 +32,11 @@ INSTALLED = frozenset(
     "TARGETS IMPORTED_RUNTIME_ARTIFACTS FILES PROGRAMS DIRECTORY SCRIPT CODE EXPORT "
     "RUNTIME_DEPENDENCY_SET".split()
 )
-"""What install( … ) begins with."""
+"""The first words of install( … )."""
 _FIRST = {"cmake_minimum_required": "VERSION"}
-"""Command → the word that it has to begin with."""
+"""Command → its required first word."""
 _DEFINING = frozenset({"macro", "function", "include", "add_subdirectory"})
-"""With one of these there may be commands of any name."""
+"""Commands that may define commands of any name."""
 _HERE = re.compile(r"\$\{(CMAKE_CURRENT_SOURCE_DIR|PROJECT_SOURCE_DIR)\}/?")
 _NAME = "PROJECT_NAME"
 
@@ -103,9 +103,9 @@ class CMakeFile:
     def __init__(self, text: str, shown: str) -> None:
         self.shown = shown
         self.fault: Fault | None = None
-        """What stops CMake; the commands are then not certain."""
+        """The fault that stops CMake; it makes the commands uncertain."""
         self.misspelt: Fault | None = None
-        """The same, for a word that CMake does not know."""
+        """The fault of a word that CMake does not know."""
         self._lines = text.splitlines()
         self.commands = tuple(self._commands(text))
         self.fault = self.fault or self._open_block()

@@ -3,4 +3,4 @@
 from __future__ import annotations
 
 SHARE = "package://"
-"""A path in the share folder of a package begins so, as in a model."""
+"""Beginning of a path in the share folder of a package, as in a model."""

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from sambot_viz.robot.slips.vocabulary import meant
 
 Repair = tuple[int, str, str]
-"""A line from 1, what to write for it, and what is wrong; "" for what Python says."""
+"""A line from 1, its replacement, and the fault; "" for the message of Python."""
 
 _WORDS = (
     *("def", "class", "return", "import", "from", "if", "elif", "else", "for", "while"),
@@ -40,7 +40,7 @@ _TEXTS: tuple[tuple[str, str, str], ...] = (
     (r"""\[((?=["'][\w/]+["']\s*:).*)\]""", r"[{\1}]", "a : is in square brackets"),
     (r"=\s*=(?=[^=])", "=", "one = is too many"),
 )
-"""A pattern, what is written for one of its places, and what is wrong."""
+"""A pattern, the replacement of one of its matches, and the fault."""
 
 
 def line_repairs(lines: list[str], at: int, message: str) -> Iterator[Repair]:

@@ -13,7 +13,7 @@ _NEWER = re.compile(
     r"\b[fFtT][rR]?[\"']|\b[rR][fFtT][\"']|^\s*(type|match|except)\b|"
     r"(def|class) \w+\["
 )
-"""Text that one version of Python reads and another does not."""
+"""Text that only some versions of Python read."""
 
 _NAME_AT_END = re.compile(r"[A-Za-z_][\w.]*$")
 _FURTHER = 2

@@ -74,7 +74,7 @@ class RobotText:
 
 
 Expression = str | Joined | LaunchArgument | ShareFolder | Operation | RobotText | None
-"""A text; None for one that is not known."""
+"""A text; None for an unknown one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +108,7 @@ class FromFile:
 
 
 Given = WrittenValue | FromFile
-"""What a node is given as parameters."""
+"""The parameters of a node."""
 
 
 @dataclass(frozen=True, slots=True)

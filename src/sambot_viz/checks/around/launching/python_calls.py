@@ -314,4 +314,4 @@ CALLS: Mapping[str, Made] = {
     ),
     **_named(_rewritten, "RewrittenYaml ReplaceString"),
 }
-"""What a call makes, by its name."""
+"""Name of a call → the function that makes its result."""

@@ -60,7 +60,7 @@ class Table(NamedTuple):
 
 
 PythonValue = Expression | Listing | Table | Action | FromFile | ast.FunctionDef
-"""The value of an expression; None for one that is not known."""
+"""The value of an expression; None for an unknown one."""
 Names = dict[str, PythonValue]
 
 

@@ -34,9 +34,9 @@ from sambot_viz.errors import Place
 
 _ENTRY = "generate_launch_description"
 _SAME = frozenset("as_posix copy items perform read resolve toprettyxml toxml".split())
-"""Methods whose result stands for the same."""
+"""Methods whose result has the same meaning."""
 _OF_MODULES = ("join", "glob", "iglob")
-"""Functions of modules; methods of texts and paths with these names are others."""
+"""Functions of modules; methods of texts and paths with these names differ."""
 _ADDING = ("add_action", "append")
 
 

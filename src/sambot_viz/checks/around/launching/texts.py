@@ -34,7 +34,7 @@ _COMPARED: dict[type[ast.cmpop], Callable[[Any, Any], bool]] = {
     ast.NotIn: lambda one, other: one not in other,
 }
 UNKNOWN = "\0"
-"""What stands in a command for a part that is not known."""
+"""The text for an unknown part of a command."""
 _METHODS = frozenset({"lower", "upper", "strip", "startswith", "endswith"})
 
 

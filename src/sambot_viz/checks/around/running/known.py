@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 SENSOR, SYSTEM = "gz.sensor", "gz.system"
-"""What stands for the package of a sensor or a system of Gazebo."""
+"""The package name for a sensor or a system of Gazebo."""
 _TABLE = Path(__file__).parents[2] / "vocabularies" / "nodes.txt"
 
 

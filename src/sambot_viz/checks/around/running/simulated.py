@@ -20,7 +20,7 @@ _SIMULATORS = {
     "gazebo": "gazebo_ros",
     "gzserver": "gazebo_ros",
 }
-"""A program of Gazebo → the package whose node stands for it."""
+"""A program of Gazebo → the package of the node that represents it."""
 
 
 def simulated(parts: Sequence[Element]) -> Iterator[RunningNode]:

@@ -15,7 +15,7 @@ from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.errors import Place
 
 Starts = Literal["yes", "no", "unknown"]
-"""Three values: what depends on something that is not known is unknown."""
+"""Three values: "unknown" for anything that depends on an unknown value."""
 
 
 @dataclass(frozen=True, slots=True)
