@@ -1,4 +1,4 @@
-"""Rules that explain what is wrong with a model and how to fix it."""
+"""Explain faults of a model, and how to fix them, by rules."""
 
 from __future__ import annotations
 

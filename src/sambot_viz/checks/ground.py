@@ -129,7 +129,7 @@ def _gap(joint: Joint, link: Link, T_footprint_link: PlainPose) -> float | None:
     """Height of a wheel's lowest point [m]; 0 when it touches the floor.
 
     A wheel turns without limit about a level axis, and is a sphere or a cylinder about
-    that axis. Other links, and wheels that are meshes, give None.
+    that axis. Return None for other links, and for wheels that are meshes.
     """
     if not joint.endless or is_rotor(joint):
         return None

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh, MeshPart
 
 _AT_ONCE = 1000
-"""Number of triangles to search; the first ones nearly always include a visible one."""
+"""Triangles in one batch; the first batch nearly always has a visible one."""
 _WITHOUT_UNIT = (".stl", ".stlb", ".obj", ".ply")
 _TOO_LARGE = 15.0
 _NONSENSE = 1e6

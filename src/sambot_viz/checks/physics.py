@@ -40,7 +40,7 @@ def inertia_on_root(subject: Subject) -> Iterator[Problem]:
 def missing_inertia(subject: Subject) -> Iterator[Problem]:
     """Report links with a collision shape and no mass, which a simulator drops."""
     if not any(link.inertial for link in subject.robot.links.values()):
-        # No sign that this model is meant for a simulator.
+        # Nothing shows that this model is for a simulator.
         return
     bare = links_without_mass(subject)
     if not bare:

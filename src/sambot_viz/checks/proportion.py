@@ -121,7 +121,7 @@ def _is_plane(shape: Shape) -> bool:
 
 
 def _is_rail(element: _Written, robot: Robot) -> bool:
-    """Return whether a part slides about as far as a length says."""
+    """Return whether a part slides about as far as a length."""
     travels = [
         joint.limit.upper - joint.limit.lower
         for joint in robot.joints.values()
@@ -270,7 +270,7 @@ def _clues(
 
 
 def _unit(element: _Written, length: float, usual: float) -> tuple[str, float]:
-    """Return the unit in which a length is no larger than the robot."""
+    """Return the unit in which a length does not exceed the robot."""
     most = _CARRIES * usual if element.carries else usual
     units = list(UNITS.items())
     return next((unit for unit in units if length * unit[1] <= most), units[-1])

@@ -77,7 +77,7 @@ class Rewriting:
             yield source.edit(Place(file, 1), extent, better)
 
     def _named(self, name: str, by: str, most: int, depth: int) -> Iterator[Edit]:
-        """Yield the edits of a property, or of the calls that give a parameter."""
+        """Yield the edits of a property, or of the calls that set a parameter."""
         for file in self.files:
             source = source_of(file)
             if source is None or name not in source.text:

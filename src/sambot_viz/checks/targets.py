@@ -128,7 +128,7 @@ class _Start(NamedTuple):
     Attributes:
         file: the model.
         launch: the launch file, as the user would write it.
-        through: the packages whose launch files lead there.
+        through: the packages whose launch files are on the way to it.
     """
 
     file: Path

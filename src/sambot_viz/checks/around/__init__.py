@@ -43,7 +43,7 @@ def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
         # A part of the robot is missing, with the links and joints that other files
         # name.
         return
-    # Nobody starts a package for the other ROS together with that of the model.
+    # A package for the other ROS does not run together with the model's.
     is_ros1 = bool(subject.packages) and subject.packages[0].is_ros1
     packages = tuple(p for p in subject.packages if p.is_ros1 == is_ros1)
     left_out = IN_MODEL_OF_ROS2 if is_ros1 else ()

@@ -207,7 +207,7 @@ def _mismatch(
     own: Sequence[GazeboTopic],
     around: Surroundings,
 ) -> Problem:
-    """Two types that do not belong together; the model or a reader says which."""
+    """Report two types that do not match; the model or a subscriber decides."""
     better, why = f"{_package(entry)}.{fitting[0]}", ""
     wrong, other = entry.gz_type, entry.ros_type
     ros_type = _ros_type(entry.kind, entry.ros_type.value)

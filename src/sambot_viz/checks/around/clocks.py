@@ -119,7 +119,7 @@ def clock_not_bridged(around: Surroundings) -> Iterator[Problem]:
 
 
 def _first_user(around: Surroundings) -> Place | None:
-    """Where a file with a bridge first sets use_sim_time of a node."""
+    """The first place where a file with a bridge sets use_sim_time of a node."""
     for launch in around.launches:
         if any(start.generation == "gz" for start in starts(launch)):
             for node in launch.nodes:

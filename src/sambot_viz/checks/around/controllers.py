@@ -43,7 +43,7 @@ def declared_controllers(around: Surroundings) -> dict[str, Parameter]:
 
 
 def _meant(name: str, names: Iterable[str]) -> str | None:
-    """Return the most similar name, or the one that has all words of a name."""
+    """Return the name with all words of another, or the most similar one."""
     words = set(name.split("_"))
     for other in names:
         if len(words) > 1 and words < set(other.split("_")):
@@ -111,7 +111,7 @@ def options_without_value(around: Surroundings) -> Iterator[Problem]:
 
 
 def _asked(node: RunningNode) -> Iterator[tuple[str, Place]]:
-    """Give the controllers that a spawner asks for, with their places."""
+    """Yield the controllers that a spawner asks for, with their places."""
     before = ""
     for word, place in node.placed_arguments:
         name, option, before = word or "", before, word or ""

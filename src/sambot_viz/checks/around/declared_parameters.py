@@ -92,7 +92,7 @@ def declared_parameters(around: Surroundings) -> DeclaredParameters:
 
 
 def _programs(package: Package) -> Iterator[tuple[str, str]]:
-    """Give the programs of a package, with the source of each."""
+    """Yield the programs of a package, with the source of each."""
     for program in package.setup.programs if package.setup is not None else ():
         yield program.name, f"{program.module.replace('.', '/')}.py"
     for command in package.cmake.commands if package.cmake is not None else ():
@@ -147,7 +147,7 @@ def _in_python(text: str) -> dict[str, str] | None:
 
 
 def _listed(call: ast.Call) -> Iterator[tuple[str | None, str]]:
-    """Give the parameters of declare_parameters(namespace, parameters)."""
+    """Yield the parameters of declare_parameters(namespace, parameters)."""
     named = {keyword.arg: keyword.value for keyword in call.keywords}
     both = [*call.args, *(named.get(n) for n in ("namespace", "parameters"))]
     space, listed, *_ = [each for each in both if each is not None] + [None, None]

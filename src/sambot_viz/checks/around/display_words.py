@@ -60,7 +60,7 @@ class _Settings(NamedTuple):
 
 
 def _settings(around: Surroundings) -> Iterator[_Settings]:
-    """Give the settings of all displays, tools and views in configs of RViz."""
+    """Yield the settings of all displays, tools and views in configs of RViz."""
     for package in around.packages:
         for file in package.configs.values():
             yield from _in_config(file)
@@ -170,7 +170,7 @@ def unknown_settings(around: Surroundings) -> Iterator[Problem]:
 
 
 def _no_class(kind: Fact, one: _Settings, classes: list[str]) -> Problem:
-    """Report a Class without a package; the class may be at another key."""
+    """Report a Class without a package; another key may have the class."""
     other = next((each for each in one.values.values() if each.value in classes), None)
     fix = Fix("write a class such as rviz_default_plugins/Grid")
     if other is not None:

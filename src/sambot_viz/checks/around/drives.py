@@ -92,7 +92,7 @@ def wrong_sides(robot: Robot) -> Iterator[Problem]:
 
 
 def wrong_sides_of_controllers(around: Surroundings) -> Iterator[Problem]:
-    """Report such wheels for the parameters of a diff_drive_controller."""
+    """Report wheels that do not match the parameters of a diff_drive_controller."""
     for file in around.yaml_files if around.robot.gazebo else ():
         for node in file.nodes:
             given = file.of(node)

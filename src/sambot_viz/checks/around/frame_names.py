@@ -289,7 +289,7 @@ def _is_odd(around: Surroundings, one: StateFilter) -> bool:
 def planes(around: Surroundings) -> Iterator[Problem]:
     """Report a file with one filter in the plane and another outside it.
 
-    One filter alone may do both with any sensors: two_d_mode then overrules them.
+    A single filter may use either with any sensors: two_d_mode overrules them.
     """
     first: dict[str, StateFilter] = {}
     for one in filters(around):

@@ -92,7 +92,7 @@ def hardware_of_the_other(around: Surroundings) -> Iterator[Problem]:
 
 
 def _replacement(plugin: Plugin, wanted: Generation) -> str:
-    """Name the plugin that does the same in the other Gazebo."""
+    """Name the equivalent plugin of the other Gazebo."""
     for mark, (classic, system) in _PLUGINS.items():
         if mark in plugin.filename:
             name = attributes(system) if wanted == "gz" else f'filename="{classic}"'

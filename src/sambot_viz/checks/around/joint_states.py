@@ -1,4 +1,4 @@
-"""Report joint states without a publisher, in launch files and behind bridges."""
+"""Report joint states without a publisher, in launch files and at bridges."""
 
 from __future__ import annotations
 

@@ -116,7 +116,7 @@ def calls_without_argument(around: Surroundings) -> Iterator[Problem]:
 
 
 def paths_from_the_root(around: Surroundings) -> Iterator[Problem]:
-    """Report a slash before a part of a path, where os.path.join starts afresh."""
+    """Report a slash before a part of a path, where os.path.join starts again."""
     for launch in around.launches:
         for call in launch.called("join"):
             path = launch.values.text(call.node) or ""

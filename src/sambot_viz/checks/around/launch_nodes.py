@@ -58,7 +58,7 @@ def descriptions(around: Surroundings) -> Iterator[Problem]:
 
 
 def described_in_xml(around: Surroundings) -> Iterator[Problem]:
-    """Report the same in launch files that are not Python."""
+    """Report a robot_state_publisher without a model's text in XML and YAML files."""
     for root in (root for package in around.packages for root in package.frontends):
         for node in root.iter():
             params = {p.get("name") or "": p for p in node.find_all("param")}

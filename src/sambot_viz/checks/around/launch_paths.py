@@ -179,7 +179,7 @@ def _is_missing(below: str, package: Package) -> bool:
 
 
 def _installs_beside_manifest(package: Package) -> bool:
-    """Return whether files may get into the share folder itself, not one in it."""
+    """Return whether the build may install files directly into the share folder."""
     cmake, setup = package.text("CMakeLists.txt"), package.setup
     if cmake is not None:
         return _IN_SHARE.search(cmake) is not None

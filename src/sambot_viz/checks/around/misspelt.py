@@ -1,4 +1,4 @@
-"""Tell misspelt names from different ones, word by word."""
+"""Distinguish misspelt names from different ones, word by word."""
 
 from __future__ import annotations
 

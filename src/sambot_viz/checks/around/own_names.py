@@ -101,7 +101,8 @@ def unknown_packages(around: Surroundings) -> Iterator[Problem]:
     for package in around.packages:
         others = around.names | _dependencies(package.manifest)
         if package.cmake is not None and package.cmake.project is not None:
-            # Where launch files use the name there, the one in package.xml is wrong.
+            # Where launch files use the project name of CMakeLists.txt, package.xml is
+            # wrong.
             others |= {package.cmake.project.text}
         for asked in _asked(package):
             # Beside the right name, a similar one may belong to another package.

@@ -148,7 +148,7 @@ def _filled(parameter: Parameter, around: Surroundings) -> Fix:
 
 
 def _count(parameter: Parameter, known: KnownParameter, node: str) -> Problem | None:
-    """Report a list with more or fewer items than the node takes."""
+    """Report a list with more or fewer items than the node accepts."""
     count = len(parameter.values)
     wanted = min(known.counts, key=lambda each: abs(each - count))
     missing = wanted - count

@@ -66,7 +66,7 @@ class PythonValues:
         self.calls = [Call(node, shown, self.of, lambda _: None) for node in found]
 
     def of(self, node: ast.expr | None) -> PythonValue:
-        """Return the value of an expression; None when it is not certain."""
+        """Return the value of an expression; None when uncertain."""
         return self._values.get(id(node))
 
     def declare(self, name: str, default: Expression) -> None:
@@ -74,7 +74,7 @@ class PythonValues:
         self._texts.arguments[name] = self._texts.settled(default)
 
     def text(self, node: ast.expr | None) -> str | None:
-        """Return the text of an expression, None when it is not certain.
+        """Return the text of an expression; None when uncertain.
 
         A launch argument becomes its default value, and the share folder of a package
         becomes ``package://NAME``.
@@ -84,11 +84,11 @@ class PythonValues:
         return self._known[id(node)]
 
     def said(self, value: PythonValue) -> str | None:
-        """Return the text of a value, None when it is not certain."""
+        """Return the text of a value; None when uncertain."""
         return self._texts.text(as_text(value))
 
     def items(self, node: ast.expr | None) -> Listing:
-        """Return the items of a list; incomplete when they are not certain."""
+        """Return the items of a list; incomplete for uncertain ones."""
         value = self.of(node)
         return value if isinstance(value, Listing) else Listing((), complete=False)
 

@@ -41,7 +41,7 @@ _LIKENESS = 0.75
 _TURN = 360.0
 _FULL_TURN = 2 * math.pi + 0.01
 _NEAR, _FAR = 1.0, 5.0
-"""Bounds of a sensor's range [m] and of its ratio; outside them one end is wrong."""
+"""Limits are exchanged up to this minimum [m] or from this ratio; else one is wrong."""
 _LIMITS = (("range", "min", "max"), ("clip", "near", "far"))
 
 

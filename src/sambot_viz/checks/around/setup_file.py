@@ -55,7 +55,7 @@ class DataFiles(NamedTuple):
 
     @property
     def globs(self) -> Iterator[ast.Call]:
-        """The calls of glob that give its files."""
+        """The calls of glob that find its files."""
         for node in ast.walk(self.paths) if self.paths is not None else ():
             if isinstance(node, ast.Call) and call_name(node.func) in _GLOBS:
                 yield node
@@ -188,7 +188,7 @@ class SetupFile:
 
     @cached_property
     def installs_only_known(self) -> bool:
-        """True when all that data_files installs is known."""
+        """True when everything that data_files installs is known."""
         all_ = self.values.items(self.given("data_files"))
         pairs = self.data_files
         return (

@@ -119,7 +119,7 @@ class Surroundings:
 
     @property
     def is_ros1(self) -> bool:
-        """True when catkin alone builds the package: it is not for ROS 2."""
+        """True when only catkin builds the package: it is not for ROS 2."""
         return self.files.is_ros1
 
     @property

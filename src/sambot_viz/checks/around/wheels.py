@@ -59,7 +59,7 @@ def wheel_sizes(robot: Robot) -> Iterator[Problem]:
 
 
 def wheel_sizes_of_controllers(around: Surroundings) -> Iterator[Problem]:
-    """Report such sizes in the parameters of a diff_drive_controller."""
+    """Report sizes in a diff_drive_controller that differ from the model's."""
     for file in around.yaml_files if around.robot.gazebo else ():
         for node in file.nodes:
             given = file.of(node)

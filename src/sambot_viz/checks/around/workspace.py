@@ -250,14 +250,14 @@ class Package:
 
     @property
     def is_python(self) -> bool:
-        """True when package.xml says that colcon builds it by setup.py."""
+        """True when package.xml makes colcon build it by setup.py."""
         elements = self.manifest.iter() if self.manifest is not None else ()
         kinds = (e.text.strip() for e in elements if e.tag == "build_type")
         return "ament_python" in kinds
 
     @cached_property
     def is_ros1(self) -> bool:
-        """True when catkin alone builds it: it is not for ROS 2."""
+        """True when only catkin builds it: it is not for ROS 2."""
         root = self.manifest
         if root is None:
             return False

@@ -10,7 +10,7 @@ class Fault(NamedTuple):
 
     Attributes:
         line: its line, from 1.
-        cause: what is wrong there.
+        cause: the cause of the fault.
         hint: what to write.
         better: the corrected line, where only one line changes.
         at: the line to change; None for `line`.

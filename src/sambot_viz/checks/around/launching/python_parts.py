@@ -160,7 +160,7 @@ def either(one: PythonValue, other: PythonValue) -> PythonValue:
 
 
 def assign(target: ast.expr, value: PythonValue, names: Names) -> None:
-    """Give a variable, or each of several, its value."""
+    """Assign a value to a variable, or one to each of several."""
     if isinstance(target, ast.Name):
         names[target.id] = value
     elif isinstance(target, (ast.Tuple, ast.List)):

@@ -152,7 +152,7 @@ class LaunchTexts:
         """Return an argument that is neither true nor false, and its value.
 
         Args:
-            expression: the condition; None for one that is no argument.
+            expression: the condition; None for one that is not an argument.
         """
         match expression:
             case Operation(name="not", operands=(inner,)):

@@ -33,7 +33,7 @@ def system_of(
     arguments: Mapping[str, str] | None = None,
     displays: bool = False,
 ) -> RunningSystem:
-    """Return what runs when launch files are started.
+    """Return the system that launch files start.
 
     A launch file that another one includes does not start a second time. The user may
     start nodes by hand that have parameters in the packages, but get them from no

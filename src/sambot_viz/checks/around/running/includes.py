@@ -18,7 +18,7 @@ from sambot_viz.errors import Place
 
 
 def installed_as(package: Package, below: str) -> str | None:
-    """Return the file that a path means; it may be installed in another folder."""
+    """Return the file at a path; its source may be in another folder."""
     if below in package.paths:
         return below
     last = below.rpartition("/")[2]

@@ -19,8 +19,8 @@ class NodeRow(NamedTuple):
         verb: "publishes", "subscribes", "transform", "part", or a word with its own
             code.
         words: its other words, such as a topic and its type.
-        unless: the parameter and the value with which it does not hold; else empty.
-        when: the parameter and the value with which alone it holds; else empty.
+        unless: the parameter and the value that exclude it; else empty.
+        when: the parameter and the value that it requires; else empty.
         everywhere: the default of that parameter is the same in all distributions.
     """
 

@@ -34,7 +34,7 @@ class Endpoint:
         is_seldom: few users need it.
         latched: later subscribers also get the last message; "once" where no other
             follows, else "often".
-        typed_at: the line that decides on its type; None where that is not certain.
+        typed_at: the line that decides on its type; None for an uncertain one.
         switch: the parameter and the value that change the type or the topic.
     """
 
