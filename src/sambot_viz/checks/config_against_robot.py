@@ -148,7 +148,7 @@ def _switched_off(display: DisplayConfig, file: str | None) -> Problem:
 
 
 def _shows_nothing(display: DisplayConfig) -> bool:
-    """True for a robot display without visuals and collisions."""
+    """Return whether a robot display shows neither visuals nor collisions."""
     node = display.node
     shown = node.text("Collision Enabled") or "false"
     return node.text("Visual Enabled") == "false" and shown == "false"
@@ -215,7 +215,10 @@ def _description(display: DisplayConfig, file: str | None) -> Iterator[Problem]:
 def _volatile(
     display: DisplayConfig, topic: Node, file: str | None
 ) -> Iterator[Problem]:
-    """Volatile by hand; RViz itself writes it, and means another, with all defaults."""
+    """Report a Volatile that the user wrote.
+
+    RViz itself writes Volatile with all defaults, and then uses another policy.
+    """
     durability = topic.get("Durability Policy") if isinstance(topic, Map) else None
     if not isinstance(topic, Map) or _text(durability) != "Volatile":
         return

@@ -126,7 +126,7 @@ def _one_wheel(
 
 
 def _gap(joint: Joint, link: Link, T_footprint_link: PlainPose) -> float | None:
-    """Height of a wheel's lowest point [m]; 0 when it touches the floor.
+    """Return the height of a wheel's lowest point [m]; 0 when it touches the floor.
 
     A wheel turns without limit about a level axis, and is a sphere or a cylinder about
     that axis. Return None for other links, and for wheels that are meshes.

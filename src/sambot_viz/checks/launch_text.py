@@ -68,7 +68,7 @@ def _bare_launch_files(subject: Subject, model: Path) -> Iterator[tuple[str, int
 
 
 def bare_commands(tree: ast.Module, model: str) -> list[int]:
-    """Lines where robot_description is a Command without a ParameterValue around it.
+    """Return lines with a Command as robot_description, without a ParameterValue.
 
     Args:
         tree: the launch file.
@@ -136,7 +136,7 @@ def _is_text_in_yaml(text: str) -> bool:
 
 
 def _place(files: tuple[str, ...], words: str) -> Place | None:
-    """The place of a text in the files that the user wrote."""
+    """Return the place of a text in the files that the user wrote."""
     if len(words) < _SHORTEST_WORDS:
         return None
     for file in files:

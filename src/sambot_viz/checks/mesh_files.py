@@ -79,7 +79,7 @@ def _is_large(path: Path) -> bool:
 
 
 def _meshes_of(subject: Subject) -> Iterator[tuple[Link, Shape, MeshFile, Path]]:
-    """The mesh shapes with an existing file, with their links."""
+    """Yield the mesh shapes with an existing file, with their links."""
     for link, shape in subject.shapes():
         mesh = shape.geometry
         if isinstance(mesh, MeshFile) and mesh.path is not None:
@@ -143,7 +143,7 @@ def _invisible(link: Link, shape: Shape, path: Path) -> Problem:
 
 
 def _severity(problem: Problem) -> Severity:
-    """The severity of a mesh problem for the model."""
+    """Return the severity of a mesh problem for the model."""
     if problem.code == "mesh-lfs-pointer":
         # The model is fine; the clone lacks its large files.
         return "warning"
@@ -209,7 +209,7 @@ def _clues(robot: Robot, size: float) -> Clues:
 
 
 def _longest_side(subject: Subject, mesh: MeshFile, path: Path) -> float | None:
-    """The longest side of the scaled bounding box [m]; None for floors and walls."""
+    """Return the longest side of the scaled bounds [m]; None for floors and walls."""
     found = subject.mesh(path)
     if found is None or isinstance(found, Problem):
         return None

@@ -87,7 +87,7 @@ def _never_called(subject: Subject) -> Iterator[Element]:
 
 
 def _document(file: str) -> Element | None:
-    """The tree of a xacro file, before it is expanded."""
+    """Return the tree of a xacro file before its expansion."""
     try:
         text = read_source(file).text
         return parse_xml(text, file) if "xacro" in text else None
@@ -100,7 +100,7 @@ def _macros(document: Element) -> list[Element]:
 
 
 def _called(document: Element, macros: list[str]) -> Iterator[str]:
-    """Names of called macros, whatever the namespace of the call."""
+    """Yield names of called macros, whatever the namespace of the call."""
     for element in document.iter():
         prefix, _, name = element.tag.rpartition(":")
         if element.tag == "xacro:call":

@@ -101,5 +101,5 @@ def _found(checks: Iterable[Check], around: Surroundings) -> Iterator[Problem]:
 
 
 def _is_part(robot: Robot) -> bool:
-    """True for a file that others include: they may have what it lacks."""
+    """Return whether others include a file: they may have what it lacks."""
     return any(p.code == "robot-without-name" for p in robot.problems)

@@ -165,7 +165,7 @@ def _is_entry(node: yaml.Node) -> bool:
 
 
 def _form(key: yaml.ScalarNode, below: yaml.Node | None) -> tuple[str, str]:
-    """The cause and the hint for an entry outside a list."""
+    """Return the cause and the hint for an entry outside a list."""
     if below is None:
         cause = 'no "- " is before the first key of the entry'
         return cause, f"write - {key.value}, and two blanks more before the others"
@@ -194,7 +194,7 @@ def second_documents(around: Surroundings) -> Iterator[Problem]:
 
 
 def _second_document(text: str) -> int | None:
-    """The line of the --- after a list; None for a file with one document."""
+    """Return the line of the --- after a list; None for a file with one document."""
     if "---" not in text:
         return None
     starts, is_list = 0, False

@@ -83,7 +83,7 @@ def _exchanged(entry: BridgeEntry) -> Iterator[Problem]:
 
 
 def _near_ros_type(written: str) -> str | None:
-    """The known type that a text misspells; None for a known or very different one."""
+    """Return the known type that a text misspells; None for a known or other one."""
     known = {*_PAIRS}
     parts = [part for part in written.replace(".", "/").split("/") if part]
     if written in known or len(parts) < 2:
@@ -132,7 +132,7 @@ def bridge_types(around: Surroundings) -> Iterator[Problem]:
 
 
 def _is_gz_type(written: str) -> bool:
-    """True for a type of Gazebo, also one that does not exist, unless misspelt."""
+    """Return whether a text is a Gazebo type, even an unknown one, but not misspelt."""
     in_package = written.rpartition(".")[0] in _GZ_PACKAGES
     return in_package and _near_gz_type(written) is None
 
@@ -166,7 +166,7 @@ def topics_of_other_types(around: Surroundings) -> Iterator[Problem]:
 
 
 def _has_wrong_types(around: Surroundings) -> bool:
-    """True where another rule already reports the types of a bridge."""
+    """Return whether another rule already reports the types of a bridge."""
     return any(bridge_types(around)) or any(unknown_bridge_types(around))
 
 
@@ -256,6 +256,6 @@ def _package(entry: BridgeEntry) -> str:
 
 
 def _ros_type(kind: str, written: str) -> str:
-    """The ROS type for a Gazebo type; of several, the nearest to the written one."""
+    """Return the ROS type for a Gazebo type; of several, the nearest to the text."""
     fitting = [name for name, kinds in _PAIRS.items() if kind in kinds]
     return nearest(written, fitting, 0.0) or written

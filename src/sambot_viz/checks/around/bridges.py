@@ -84,7 +84,7 @@ def bridge_topics(around: Surroundings) -> Iterator[Problem]:
 def _own_names(
     around: Surroundings, topics: Sequence[GazeboTopic]
 ) -> dict[str, frozenset[str]]:
-    """The model's possible names in Gazebo, for types whose topics it names itself."""
+    """Return the model's possible Gazebo names, for types whose topics it names."""
     names = {around.robot.name, *(t for one in around.launches for t in one.strings)}
     open_ = {topic.kind for topic in unnamed(around)}
     named = {topic.kind for topic in topics}
@@ -92,7 +92,7 @@ def _own_names(
 
 
 def _is_own(entry: BridgeEntry, own: Mapping[str, frozenset[str]]) -> bool:
-    """True for a name that Gazebo would generate for this model."""
+    """Return whether Gazebo would generate a name for this model."""
     parts = bare(entry.gz.value).split("/")
     at = parts.index("model") + 1 if "model" in parts else len(parts)
     return at < len(parts) and parts[at] in own.get(entry.kind, ())

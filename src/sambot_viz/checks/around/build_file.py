@@ -341,7 +341,7 @@ def project_name(around: Surroundings) -> Iterator[Problem]:
 
 
 def _used_names(around: Surroundings) -> set[str]:
-    """The packages whose files the models and launch files use."""
+    """Return the packages whose files the models and launch files use."""
     texts = (around.files.text(path) for path in around.files.ending(*_MODELS))
     found = {a or b for text in texts for a, b in _FOUND.findall(text or "")}
     for launch in around.launches:

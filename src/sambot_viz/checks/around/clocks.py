@@ -119,7 +119,7 @@ def clock_not_bridged(around: Surroundings) -> Iterator[Problem]:
 
 
 def _first_user(around: Surroundings) -> Place | None:
-    """The first place where a file with a bridge sets use_sim_time of a node."""
+    """Return the first place where a file with a bridge sets use_sim_time of a node."""
     for launch in around.launches:
         if any(start.generation == "gz" for start in starts(launch)):
             for node in launch.nodes:
@@ -141,7 +141,7 @@ def _may_bring_clock(launch: LaunchFile, around: Surroundings) -> bool:
 
 
 def _is_foreign(fact: Fact, around: Surroundings) -> bool:
-    """True for a launch file of a package with unknown content."""
+    """Return whether a launch file is from a package with unknown content."""
     package = fact.value.removeprefix(SHARE).partition("/")[0]
     ours = package in around.names or package in _WITHOUT_CLOCK
     return fact.value.endswith("launch.py") and not ours

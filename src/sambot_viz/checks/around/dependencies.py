@@ -21,7 +21,7 @@ _LIKENESS = 0.8
 
 
 def _started() -> set[str]:
-    """Packages that launch files often start."""
+    """Return packages that launch files often start."""
     return {name for name, words in vocabulary("packages").items() if "starts" in words}
 
 

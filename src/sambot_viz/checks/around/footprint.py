@@ -89,7 +89,7 @@ def _hint(words: Sequence[str]) -> str:
 
 
 def _words(node: yaml.Node) -> Iterator[str]:
-    """The numbers in a list of lists."""
+    """Yield the numbers in a list of lists."""
     if isinstance(node, yaml.ScalarNode):
         yield from _WORD.findall(node.value)
     elif isinstance(node, yaml.SequenceNode):
@@ -132,7 +132,7 @@ def _given(file: YamlFile) -> Iterator[tuple[str, str, Parameter]]:
 
 
 def _said(given: Mapping[str, Parameter]) -> Parameter | None:
-    """The parameter that counts: a footprint overrides a radius.
+    """Return the parameter that counts: a footprint overrides a radius.
 
     None without a parameter, or when Nav2 cannot read it.
     """

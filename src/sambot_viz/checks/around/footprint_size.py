@@ -126,7 +126,7 @@ def _outward(value: float, rounded: Callable[[float], int]) -> float:
 
 
 def _polygon(text: str) -> Points | None:
-    """The corners of a footprint [m]; None when they are unreadable."""
+    """Return the corners of a footprint [m]; None when they are unreadable."""
     numbers = [float(n) for n in _NUMBER.findall(text)[:2000]]
     if len(numbers) < 6 or len(numbers) % 2 or not all(map(math.isfinite, numbers)):
         return None
@@ -134,7 +134,7 @@ def _polygon(text: str) -> Points | None:
 
 
 def _outside(polygon: Points, point: Vector2) -> float:
-    """Distance of a point from a polygon [m]; 0 inside."""
+    """Return the distance of a point from a polygon [m]; 0 inside."""
     distance, inside = math.inf, False
     for a, b in zip(polygon, [*polygon[1:], polygon[0]], strict=True):
         edge, to = (b[0] - a[0], b[1] - a[1]), (point[0] - a[0], point[1] - a[1])
@@ -173,7 +173,7 @@ def _reach(robot: Robot, frame: str, *, visuals: bool) -> _Reach:
 
 
 def _rigid(robot: Robot) -> list[str]:
-    """The links that no joint moves away, without those of arms and lifts."""
+    """Return the links that no joint moves away, without those of arms and lifts."""
     moved: set[str] = set()
     waiting = [j.child for j in robot.joints.values() if j.type not in _STEADY]
     children: dict[str, list[str]] = {}
@@ -191,7 +191,7 @@ _STEADY = frozenset({"fixed", "continuous"})
 
 
 def _points(shape: Shape, T_frame_link: PlainPose) -> Points | None:
-    """Points of a shape in the frame [m]; None for a mesh."""
+    """Return points of a shape in the frame [m]; None for a mesh."""
     geometry = shape.geometry
     T = T_frame_link @ shape.origin.pose
     if isinstance(geometry, MeshFile):

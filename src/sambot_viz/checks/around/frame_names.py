@@ -190,7 +190,7 @@ def moved_twice(around: Surroundings) -> Iterator[Problem]:
 
 
 def _line_of(one: StateFilter) -> Place:
-    """The line that makes a filter publish its transform."""
+    """Return the line that makes a filter publish its transform."""
     for name in ("publish_tf", "base_link_frame", "world_frame"):
         if name in one.given:
             return one.given[name].place

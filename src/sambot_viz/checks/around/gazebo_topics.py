@@ -63,7 +63,7 @@ def _all(around: Surroundings) -> Iterator[GazeboTopic]:
 
 
 def _is_left_out(topic: GazeboTopic) -> bool:
-    """False where another element misspells this one."""
+    """Return whether an element is really absent: no other one misspells it."""
     tags = [given.name for given in topic.node.parameters]
     return nearest(topic.end.parameter, tags, _MISSPELT) is None
 

@@ -69,7 +69,7 @@ def not_installed(around: Surroundings) -> Iterator[Problem]:
 
 
 def _is_launch(path: str, user: Place, installed: Installed) -> bool:
-    """True for a launch file that ros2 launch finds anywhere in the share folder."""
+    """Return whether ros2 launch finds a launch file anywhere in the share folder."""
     head = f"{installed.share}/"
     itself = user.line == 1 and path.endswith("launch.py")
     return itself and any(t.startswith(head) for t, _ in installed.targets(path))
@@ -174,7 +174,7 @@ def _files(
 
 
 def _without_files(setup: SetupFile, target: str) -> DataFiles | None:
-    """The entry of data_files for a folder, when its globs find nothing."""
+    """Return the entry of data_files for a folder whose globs find nothing."""
     for entry in setup.data_files:
         if entry.target == target and not entry.files.items and any(entry.globs):
             return entry
@@ -308,7 +308,7 @@ def misspelt_targets(setup: SetupFile, around: Surroundings) -> Iterator[Problem
 
 
 def _installed(around: Surroundings) -> Installed | None:
-    """The installed files and folders; None when they are not certain."""
+    """Return the installed files and folders; None when they are not certain."""
     share = f"share/{around.files.name}"
     made = partial(Installed, folder=around.files.folder, share=share)
     cmake, setup = around.cmake, around.setup
@@ -356,7 +356,7 @@ def _by_cmake(cmake: CMakeFile, around: Surroundings) -> list[Piece] | None:
 def _of_command(
     command: CMakeCommand, target: CMakeWord, cmake: CMakeFile, around: Surroundings
 ) -> list[Piece] | None:
-    """The files and folders of one install( … ); None when they are not certain."""
+    """Return the files and folders of one install( … ); None when uncertain."""
     right = _corrected(target.text, around)
     if right is None:
         return None
@@ -385,7 +385,7 @@ def _of_command(
 
 
 def _corrected(target: str, around: Surroundings) -> str | None:
-    """The right DESTINATION for a misspelt one, or the same for a right one.
+    """Return the right DESTINATION for a misspelt one, or the same for a right one.
 
     None when its value is not certain.
     """

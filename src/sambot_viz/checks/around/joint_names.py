@@ -220,7 +220,7 @@ def unknown_references(robot: Robot) -> Iterator[Problem]:
 
 
 def _link_of_sensors(part: Element, free: list[str]) -> str | None:
-    """The link whose frame the sensors of a <gazebo> have."""
+    """Return the link whose frame the sensors of a <gazebo> have."""
     frames = {
         fact.value
         for sensor in part.find_all("sensor")
@@ -231,7 +231,7 @@ def _link_of_sensors(part: Element, free: list[str]) -> str | None:
 
 
 def _with_its_words(name: str, links: list[str]) -> str | None:
-    """The only link whose name has all words of another name, such as lidar_link."""
+    """Return the only link with all words of another name, such as lidar_link."""
     words = set(name.lower().split("_"))
     found = [link for link in links if words < set(link.lower().split("_"))]
     return found[0] if len(found) == 1 else None

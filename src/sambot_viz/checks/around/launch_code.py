@@ -76,7 +76,7 @@ def missing_entries(around: Surroundings) -> Iterator[Problem]:
 
 
 def _describes(function: ast.FunctionDef) -> bool:
-    """True for a function that returns a LaunchDescription it builds."""
+    """Return whether a function returns a LaunchDescription that it builds."""
     return any(
         isinstance(node, ast.Return)
         and isinstance(node.value, ast.Call)
@@ -86,7 +86,7 @@ def _describes(function: ast.FunctionDef) -> bool:
 
 
 def _returns(function: ast.FunctionDef) -> bool:
-    """True for a function that may return something, or that never ends regularly."""
+    """Return whether a function may return a value, or never ends regularly."""
     inner: list[ast.AST] = list(function.body)
     while inner:
         node = inner.pop()
@@ -101,7 +101,7 @@ def _returns(function: ast.FunctionDef) -> bool:
 
 
 def _without_return(function: ast.FunctionDef, launch: LaunchFile) -> Problem:
-    """The place is the description that is built and lost, or the function."""
+    """Report a missing return at the lost description, or at the function."""
     place = Place(launch.shown, function.lineno, function.col_offset + 1)
     hint: str | Fix = f"end it with return {_DESCRIPTION}([…])"
     for node in function.body:

@@ -78,7 +78,7 @@ def joined_texts(around: Surroundings) -> Iterator[Problem]:
 
 
 def _is_joined(node: ast.expr, lines: list[str]) -> bool:
-    """True for two texts, each alone in a line, that do not look like one text."""
+    """Return whether two texts, each alone in a line, do not look like one text."""
     last = node.end_lineno or node.lineno
     if not isinstance(node, ast.Constant) or last != node.lineno + 1:
         return False

@@ -85,7 +85,7 @@ def described_in_xml(around: Surroundings) -> Iterator[Problem]:
 
 
 def _gets_nothing_else(launch: LaunchFile, call: Call) -> bool:
-    """True when the call has all parameters, and no arguments."""
+    """Return whether a call has all parameters, and no arguments."""
     others = {"SetParameter", "SetParametersFromFile", "GroupAction"}
     return (
         call.complete

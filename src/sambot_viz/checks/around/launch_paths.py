@@ -191,7 +191,7 @@ def _installs_beside_manifest(package: Package) -> bool:
 
 
 def _read_by(launch: LaunchFile, fact: Fact, package: Package) -> str | None:
-    """The only file with parameters for the node that gets a missing file."""
+    """Return the only file with parameters for the node that gets a missing file."""
     for node in launch.nodes:
         name = node.name or OWN_NAMES.get(node.executable)
         if name and any(given.value == fact.value for given in node.files):
@@ -202,7 +202,7 @@ def _read_by(launch: LaunchFile, fact: Fact, package: Package) -> str | None:
 
 
 def _near(below: str, paths: Sequence[str]) -> str | None:
-    """The probable file: of the same kind, with the most similar name."""
+    """Return the probable file: of the same kind, with the most similar name."""
     wanted = PurePosixPath(below)
     if not wanted.suffix:
         return None

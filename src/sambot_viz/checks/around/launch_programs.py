@@ -159,7 +159,7 @@ def _other_program(program: str, near: str | None) -> str:
 
 
 def _own_programs(package: Package) -> dict[str, Place] | None:
-    """The programs that setup.py installs; None when they are not certain."""
+    """Return the programs that setup.py installs; None when they are not certain."""
     setup = package.setup if package.cmake is None else None
     if setup is None or not setup.installs_only_known or setup.given("scripts"):
         return None

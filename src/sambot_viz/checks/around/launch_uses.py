@@ -66,7 +66,7 @@ def unused_actions(around: Surroundings) -> Iterator[Problem]:
 
 
 def _assigned(launch: LaunchFile) -> Iterator[tuple[str, ast.Call]]:
-    """The variables that get a node in generate_launch_description itself."""
+    """Yield the variables that get a node in generate_launch_description itself."""
     for function in launch.tree.body:
         if not isinstance(function, ast.FunctionDef):
             continue
@@ -158,7 +158,7 @@ def spawned_topics(around: Surroundings) -> Iterator[Problem]:
 
 
 def _descriptions(around: Surroundings) -> Iterator[tuple[str | None, Place]]:
-    """The topics that carry the model; None for an uncertain one."""
+    """Yield the topics that carry the model; None for an uncertain one."""
     for launch in around.launches:
         pushed = any(launch.called("PushRosNamespace", "PushROSNamespace"))
         for call in launch.called():

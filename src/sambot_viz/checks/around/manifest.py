@@ -50,7 +50,7 @@ def unreadable_manifest(around: Surroundings) -> Iterator[Problem]:
 
 
 def named_as_its_folder(around: Surroundings) -> bool:
-    """True when package.xml has no name that colcon accepts."""
+    """Return whether package.xml has no name that colcon accepts."""
     root = around.manifest
     name = root.find("name") if root is not None else None
     return name is None or not _NAME.fullmatch(name.text.strip())
@@ -80,7 +80,7 @@ def _named(place: Place, said: str, right: str) -> Fix:
 
 
 def _proposed(around: Surroundings, said: str) -> str:
-    """The name in CMakeLists.txt, or a text as a name."""
+    """Return the name in CMakeLists.txt, or a text as a name."""
     project = around.cmake.project if around.cmake is not None else None
     if project is not None and _NAME.fullmatch(project.text):
         return project.text

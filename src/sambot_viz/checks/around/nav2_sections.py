@@ -110,7 +110,7 @@ def _is_like(one: str, other: str) -> bool:
 
 
 def _above(file: YamlFile, node: str, place: Place) -> Place:
-    """The line with the name of a node."""
+    """Return the line with the name of a node."""
     return file.keys.get(node, place)
 
 

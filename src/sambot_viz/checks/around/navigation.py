@@ -98,5 +98,5 @@ def bare_frame(name: str) -> str:
 
 
 def is_open(name: str) -> bool:
-    """True for a name with a substitution, which is not the final one."""
+    """Return whether a name has a substitution, and so is not final."""
     return not name or _OPEN.search(name) is not None

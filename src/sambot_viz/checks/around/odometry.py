@@ -85,7 +85,7 @@ def _reason(one: StateFilter) -> tuple[Parameter, Fix] | None:
 
 
 def _user(around: Surroundings, odom: str) -> Parameter | None:
-    """The local costmap in the frame of odometry."""
+    """Return the parameter of a local costmap in the frame of odometry."""
     for parameter in around.parameters:
         if parameter.name == "global_frame" and "local_costmap" in parameter.node:
             if bare_frame(parameter.fact.value) == odom:

@@ -76,7 +76,7 @@ def _of_manifest(right: str, other: Place, around: Surroundings) -> Problem:
 
 
 def _assigned_name(node: ast.AST) -> tuple[str, int] | None:
-    """The text and line of ``package_name = "…"`` or ``setup(name="…")``."""
+    """Return the text and line of ``package_name = "…"`` or ``setup(name="…")``."""
     if isinstance(node, ast.Assign) and len(node.targets) == 1:
         target = node.targets[0]
         if isinstance(target, ast.Name) and target.id == "package_name":
@@ -165,7 +165,7 @@ def _asked(package: Package) -> Iterator[list[tuple[str, Place]]]:
 
 
 def _dependencies(manifest: Element | None) -> set[str]:
-    """The packages that package.xml lists as dependencies."""
+    """Return the packages that package.xml lists as dependencies."""
     tags = (e for e in manifest.children if "depend" in e.tag) if manifest else ()
     return {element.text.strip() for element in tags}
 

@@ -101,7 +101,7 @@ def _unknown(read: ReadTopic, source: Published) -> Problem:
 
 
 def _only(known: Mapping[str, Published], around: Surroundings) -> str | None:
-    """The only topic of a type, when no other node can publish one."""
+    """Return the only topic of a type, when no other node can publish one."""
     alone = len(known) == 1 and around.simulates_only_known
     return next((k for k, p in known.items() if alone and p.is_simulated), None)
 
@@ -109,7 +109,7 @@ def _only(known: Mapping[str, Published], around: Surroundings) -> str | None:
 def _renamed(
     around: Surroundings, used: Sequence[ReadTopic], published: Sequence[Published]
 ) -> Iterator[tuple[Problem, ReadTopic]]:
-    """Entries of a bridge whose topic all nodes read under its Gazebo name."""
+    """Report entries of a bridge whose topic all nodes read under its Gazebo name."""
     names = {bare(p.topic.value) for p in published}
     for entry in around.bridged:
         gz, ros = bare(entry.gz.value), entry.ros
@@ -135,7 +135,7 @@ def _renamed(
 
 
 def _of_a_node(around: Surroundings, topic: str) -> bool:
-    """True for a topic below the name of a node with unknown topics."""
+    """Return whether a topic is below the name of a node with unknown topics."""
     owner = topic.rpartition("/")[0]
     running = around.running.started
     if any(bare(node.path) == owner and node.endpoints_known for node in running):
@@ -149,13 +149,13 @@ def _of_a_node(around: Surroundings, topic: str) -> bool:
 
 
 def _same(one: ReadTopic, other: ReadTopic) -> bool:
-    """The same setting of the same node in another file."""
+    """Return whether another file has the same setting of the same node."""
     same = one.reader == other.reader and one.end.parameter == other.end.parameter
     return same and one is not other
 
 
 def meant_topic(name: str, known: Mapping[str, Published]) -> str | None:
-    """The intended topic: the same one below another name, or a similar one."""
+    """Return the intended topic: the same one below another name, or a similar one."""
     last = name.rpartition("/")[2]
     same = [k for k in known if k.rpartition("/")[2] == last]
     below = [k for k in known if k.startswith(f"{name}/")]

@@ -53,7 +53,7 @@ def _finding(
 
 
 def _expected(around: Surroundings, sensor: RunningNode) -> tuple[str, Fact] | None:
-    """The topic that a bridge expects of a sensor, by an entry for its type."""
+    """Return the topic that a bridge expects of a sensor, by an entry for its type."""
     topics = [GazeboTopic(sensor, end) for end in sensor.endpoints]
     names = {topic.name for topic in topics}
     kinds = {entry.kind for entry in around.bridged if bare(entry.gz.value) in names}

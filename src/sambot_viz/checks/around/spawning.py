@@ -31,7 +31,7 @@ def spawned_with(launch: LaunchFile, option: str) -> Iterator[Fact]:
 
 
 def _of_program(launch: LaunchFile, call: Call, option: str) -> Iterator[Fact]:
-    """The value of an option, in arguments or parameters of a node."""
+    """Yield the value of an option, in arguments or parameters of a node."""
     said = launch.values.said
     program = launch.text(call, "executable") or ""
     if launch.text(call, "package") != _PROGRAMS.get(program, ""):

@@ -143,7 +143,7 @@ def _put_below(key: yaml.Node, block: yaml.Node, shown: str) -> Fix:
 
 
 def _above_parameters(file: YamlFile) -> Iterator[tuple[str, Place]]:
-    """The keys like ros__parameters below the names of nodes."""
+    """Yield the keys like ros__parameters below the names of nodes."""
     level = [file.root]
     for _ in range(4):
         below = [pair for node in level for pair in pairs(node)][:1000]

@@ -148,7 +148,7 @@ def _inside(
 
 
 def _apart(robot: Robot, left: Joint, right: Joint) -> float | None:
-    """Distance of two wheels along their common axis [m]; None without one."""
+    """Return the distance of two wheels along a common axis [m]; None without one."""
     T_left, T_right = robot.at_start[left.child], robot.at_start[right.child]
     axis, other = T_left.turned(left.axis), T_right.turned(right.axis)
     if abs(dot(axis, other)) < 0.99:
@@ -179,7 +179,7 @@ def _radius(robot: Robot, drive: _Drive, pair: Joint) -> Iterator[Problem]:
 
 
 def _wheel(robot: Robot, joint: Joint) -> Cylinder | Sphere | None:
-    """The shape of a wheel that turns about its own axis; None for other shapes."""
+    """Return the shape of a wheel that turns about its axis; None for other shapes."""
     link = robot.links[joint.child]
     shapes = link.collisions or link.visuals
     if len(shapes) != 1:

@@ -93,7 +93,7 @@ def missing_systems(around: Surroundings) -> Iterator[Problem]:
 
 
 def near_names(wanted: str, has: Iterable[str]) -> bool:
-    """True where another rule reports a misspelt name."""
+    """Return whether another rule reports a misspelt name."""
     return any(near_system(name) == wanted for name in has)
 
 
@@ -187,7 +187,7 @@ def _read(text: str, shown: str) -> Element | XmlFault:
 
 
 def _worlds(around: Surroundings) -> dict[str, str]:
-    """The world files of the packages that launch files use, each with its text."""
+    """Return the world files that launch files use, each with its text."""
     return {
         shown: text
         for launch in around.launches

@@ -294,7 +294,7 @@ class CMakeFile:
 
 
 def _bare(text: str) -> str:
-    """The text in quotation marks."""
+    """Return the text in quotation marks."""
     return text[1:-1] if len(text) > 1 and text[0] == text[-1] == '"' else text
 
 
@@ -303,5 +303,5 @@ def _indent(text: str) -> int:
 
 
 def _code(text: str) -> str:
-    """A line without its comment."""
+    """Return a line without its comment."""
     return text.partition("#")[0].rstrip()

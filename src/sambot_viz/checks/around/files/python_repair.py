@@ -75,7 +75,7 @@ def _error(text: str) -> SyntaxError | None:
 
 
 def _comma(lines: list[str], first: int, last: int) -> int | None:
-    """The line after which a comma repairs the file, or None."""
+    """Return the line after which a comma repairs the file, or None."""
     code = [line.partition("#")[0].rstrip() for line in lines]
     candidates = [n for n in range(max(1, first - 2), last + 1) if code[n - 1]]
     for n in candidates[:_MOST_LINES]:

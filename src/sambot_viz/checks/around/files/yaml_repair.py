@@ -52,7 +52,7 @@ def fault_in(text: str) -> Fault | None:
 
 
 def _error(text: str) -> yaml.MarkedYAMLError | None:
-    """The first place where the text is not YAML; without following aliases."""
+    """Return the first place where the text is not YAML; without following aliases."""
     try:
         for _ in _YAML.parse(text, _LOADER):
             pass
