@@ -36,7 +36,8 @@ def falls_over(subject: Subject) -> Iterator[Problem]:
 
     Only certain cases count. All shapes are known, and all links with collision shapes
     have a mass. Three links touch the ground, two of them wheels; or only two wheels
-    do, and a caster is above the ground. Two wheels in one place are another cause.
+    do, and a caster is above the ground. Two wheels in one place explain the fall, and
+    another rule reports them.
     """
     robot, unknown = subject.robot, False
     if any(wheels_in_one_place(subject)):

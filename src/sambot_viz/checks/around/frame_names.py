@@ -287,7 +287,7 @@ def _is_odd(around: Surroundings, one: StateFilter) -> bool:
 
 
 def planes(around: Surroundings) -> Iterator[Problem]:
-    """Report a file with one filter in the plane and another outside it.
+    """Report a file with two_d_mode in one filter and not in another.
 
     A single filter may use either with any sensors: two_d_mode overrules them.
     """
