@@ -1,4 +1,4 @@
-"""A class that runs: its port, its seats, its board."""
+"""A running class: its port, its seats and its board."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ class Classroom:
     """Serves a class, from `start` to `stop`.
 
     Args:
-        options: where it listens, and its secrets.
-        lesson: what is learnt; what is changed in its files later does not count.
-        folder: of the class; each student has a folder in it.
-        track: the way through the lesson; None for the first.
-        processes: so many have the seats; None for one for each core.
+        options: address to listen on, and the secrets.
+        lesson: the lesson; later changes of its files have no effect.
+        folder: folder of the class, which holds a folder for each student.
+        track: track of the lesson; None for the first.
+        processes: number of processes for the seats; None for one per core.
 
     Raises:
-        UsageError: the folder cannot be written, or the lesson has no such track.
+        UsageError: the folder is not writable, or the lesson has no such track.
         ServerError: the address cannot be listened on.
     """
 
@@ -54,7 +54,7 @@ class Classroom:
         self._port = 0 if options.unix_socket is not None else int(named[1])
         try:
             self._roll = Roll(folder)
-            # Who comes before the loop runs waits for it.
+            # A visitor who arrives before the loop runs waits for it.
             self._socket.listen()
         except BaseException:
             self._socket.close()
@@ -74,11 +74,11 @@ class Classroom:
         )
 
     def start(self) -> None:
-        """Listen from now on."""
+        """Start listening."""
         self._thread.start()
 
     def stop(self) -> None:
-        """Write what students have typed, and free the port."""
+        """Save the texts of the students, and free the port."""
         if self._thread.is_alive():
             self._loop.call_soon_threadsafe(self._end.set)
             self._thread.join()
@@ -86,7 +86,7 @@ class Classroom:
 
     @property
     def port(self) -> int:
-        """The port on which it listens; 0 for a socket in the file system."""
+        """The port it listens on; 0 for a socket in the file system."""
         return self._port
 
     @property
@@ -120,12 +120,12 @@ class Classroom:
         server = await asyncio.start_server(
             self._front.serve, sock=self._socket, limit=limits.CLASS_REQUEST.value
         )
-        # A lesson that is changed later is none of theirs.
+        # Students keep the lesson of the start, even if its files change.
         starting = asyncio.gather(*(each.start() for each in self._processes))
         await self._end.wait()
         self._front.state = "stopping"
         await starting
-        # The seats tell their pages, through the connections that end with them.
+        # The seats notify their pages through the connections that end with them.
         await asyncio.gather(*(each.close() for each in self._processes))
         server.close()
         await self._front.close()
@@ -152,7 +152,7 @@ class Classroom:
             self._point(each)
 
     def _point(self, number: int) -> None:
-        """Tell a student whose page is shown to all."""
+        """Tell students whose page is shown to the class."""
         shown = self._board.shown
         name = self._roll.students[shown].name if shown else ""
         link = f"{LOOK.strip('/')}/{shown}/" if shown and shown != number else ""
@@ -160,10 +160,10 @@ class Classroom:
 
 
 def _refuse_package(folder: Path) -> None:
-    """Refuse a folder in a package: all files of that would be each student's.
+    """Refuse a folder inside a package: each student would get all files of it.
 
     Raises:
-        UsageError: it is in one.
+        UsageError: the folder lies in a package.
     """
     package = package_of(folder / "lesson.yaml")
     if package_name(package) is not None:

@@ -1,8 +1,8 @@
-"""The one port of a class: who may go where.
+"""The single port of a class, and who may open which page.
 
-A student is known by a cookie, and gets to the student's own seat, and to the one that
-is shown to all. The teacher is known by the secret of the board's address, and gets to
-the board and, to look, to all seats.
+A cookie identifies a student, who may open the student's own seat and the one that is
+shown to the class. The secret in the board's address identifies the teacher, who may
+open the board and view every seat.
 """
 
 from __future__ import annotations
@@ -41,28 +41,28 @@ from sambot_viz.server.readiness import ServerState, readiness, stopping
 from sambot_viz.text import text
 
 ASKED = "Sambot-Class"
-"""A header of what our own pages ask for: no page of another origin can send it."""
+"""A header that our own pages send: no page of another origin can send it."""
 LOOK = "/student/"
-"""Below this path are the seats of others."""
+"""The seats of others are below this path."""
 _ALIVE = 15.0
-"""A board hears something at least so often [s]: some proxies end what is silent."""
+"""Longest silence towards a board [s]: some proxies close silent connections."""
 _CLOSED = 2.0
 _Streams = tuple[StreamReader, StreamWriter]
 
 
 class Front:
-    """Answers requests, or lets them through to a seat.
+    """Answers requests, or passes them on to a seat.
 
     Args:
-        options: where it listens, and the secrets.
-        roll: who is in the class.
-        board: the teacher's.
-        seat_of: opens the seat of a student, unless it is open.
-        say: tells a sentence to a student, or to all with 0.
-        show: shows the seat of a student to all, or none with 0.
+        options: address to listen on, and the secrets.
+        roll: the students of the class.
+        board: the teacher's board.
+        seat_of: opens a student's seat, unless it is open.
+        say: shows a sentence to one student, or to all with 0.
+        show: shows one student's seat to the class, or none with 0.
 
     Attributes:
-        state: whether the lesson is shown, or not from now on.
+        state: whether the server shows the lesson, or is stopping.
     """
 
     state: ServerState = "ready"
@@ -93,8 +93,8 @@ class Front:
             if len(self._open) <= limits.CONNECTIONS.value:
                 await self._serve(reader, writer)
         except (BadRequestError, OSError, UnicodeError, asyncio.CancelledError):
-            # Whoever it was has gone, sends what no page of ours does, or may not
-            # look any longer.
+            # The visitor has left, sends requests that none of our pages makes, or may
+            # no longer look.
             pass
         finally:
             self._open.discard(task)
@@ -109,7 +109,7 @@ class Front:
             await asyncio.wait(self._open, timeout=_CLOSED)
 
     def end_looks(self) -> None:
-        """End what students see of a seat that was shown to all."""
+        """End the students' views of a seat that was shown to the class."""
         for task in self._looking:
             task.cancel()
 
@@ -139,7 +139,7 @@ class Front:
     # Students
 
     def _student(self, request: Request) -> Student | None:
-        """Return whose cookie a request has; a browser sends the newest one first."""
+        """Return the student of a request's cookie; browsers send the newest first."""
         parts = ";".join(request.headers.get_all("Cookie")).split(";")
         pairs = (part.strip().partition("=") for part in parts)
         keys = [value for name, _, value in pairs if name == self._roll.cookie]
@@ -167,7 +167,7 @@ class Front:
     async def _go_on(
         self, request: Request, path: str, streams: _Streams
     ) -> Response | None:
-        """Let a request through to a seat, or say why it may not go there."""
+        """Pass a request on to a seat, or say why it may not go there."""
         own, teaches = self._student(request), self._check.is_presenter(request)
         if path.startswith(LOOK):
             number, slash, rest = path.removeprefix(LOOK).partition("/")
@@ -262,7 +262,7 @@ class Front:
         return answer(b"")
 
     async def _follow(self, writer: StreamWriter) -> None:
-        """Send all rows, and then those that change."""
+        """Send all rows, then each changed row."""
         head = answer(b"", "text/event-stream", more={"X-Accel-Buffering": "no"})
         del head.headers["Content-Length"]
         head.headers["Connection"] = "close"

@@ -1,7 +1,7 @@
-"""Requests to the one port of a class, read without a library's server.
+"""Requests to the single port of a class, read without a server library.
 
-The connections of students go on, byte by byte, to the servers of their seats: those
-check them again, and take them apart.
+Students' connections are relayed, byte by byte, to the servers of their seats. Those
+servers check and parse them again.
 """
 
 from __future__ import annotations
@@ -21,26 +21,26 @@ from websockets.streams import StreamReader as Lines
 from sambot_viz.errors import ServerError
 
 HEAD_TIME = 10.0
-"""A request is there after so long, or the connection ends [s]."""
+"""A request must be complete after this time, or the connection ends [s]."""
 _END = b"\r\n\r\n"
 _BLOCK = 64 * 1024
 NAME_HEADER = "X-Sambot-Name"
-"""Tells a seat who opens a page; only the program of the class reaches it."""
+"""Names the user who opens a seat; only the program of the class can reach it."""
 _PRIVATE = frozenset(
     {"authorization", "cookie", "connection", "upgrade", NAME_HEADER.lower()}
 )
-"""Headers that say who somebody is; the rest goes on as it came."""
+"""Headers that identify a user; all others are passed on unchanged."""
 
 
 class BadRequestError(Exception):
-    """What has come is no request that a page of ours makes."""
+    """A request that none of our pages makes."""
 
 
 async def read_request(reader: StreamReader) -> Request:
     """Read the head of a request.
 
     Raises:
-        BadRequestError: it is none, too long, or does not come in time.
+        BadRequestError: the request is malformed, too long, or late.
     """
     try:
         head = await asyncio.wait_for(reader.readuntil(_END), HEAD_TIME)
@@ -67,13 +67,13 @@ async def read_request(reader: StreamReader) -> Request:
 
 
 def on_behalf(request: Request, path: str, secret: str, name: str) -> bytes:
-    """Return the head of a request as it goes on to a seat.
+    """Return the head of a request as a seat receives it.
 
     Args:
-        request: as it came.
-        path: below the address of the seat.
-        secret: lets it in there.
-        name: who it is, in letters of any script.
+        request: the original request.
+        path: path below the address of the seat.
+        secret: secret that opens the seat.
+        name: name of the user, in letters of any script.
     """
     upgrade = request.headers.get("Upgrade", "")
     kept = (
@@ -83,17 +83,17 @@ def on_behalf(request: Request, path: str, secret: str, name: str) -> bytes:
     lines += ["Connection: Upgrade", f"Upgrade: {upgrade}"] if upgrade else []
     lines += [f"Authorization: Bearer {secret}", f"{NAME_HEADER}: {name}"]
     head = "\r\n".join([f"GET {path} HTTP/1.1", *lines, "", ""])
-    # What was no text in the request is the same bytes again.
+    # Bytes that were not text in the request stay the same bytes.
     return head.encode(errors="surrogateescape")
 
 
 async def pipe(
     reader: StreamReader, writer: StreamWriter, port: int, head: bytes
 ) -> None:
-    """Join a connection with a server of this machine, until one of them ends.
+    """Connect a client with a server on this machine, until one of them ends.
 
     Raises:
-        ServerError: that server has ended.
+        ServerError: the server has ended.
     """
     try:
         far_reader, far_writer = await asyncio.open_connection("127.0.0.1", port)
@@ -126,12 +126,12 @@ def answer(
     status: http.HTTPStatus = http.HTTPStatus.OK,
     more: Mapping[str, str] = MappingProxyType({}),
 ) -> Response:
-    """Return a response that no browser keeps.
+    """Return a response that browsers do not store.
 
     Args:
-        content: of the answer.
-        kind: its type; texts are UTF-8.
-        status: of the answer.
+        content: content of the response.
+        kind: its media type; texts are UTF-8.
+        status: status of the response.
         more: further headers.
     """
     charset = "; charset=utf-8" if kind.startswith("text/") else ""

@@ -1,7 +1,7 @@
-"""Who is in a class: names, folders, and the cookies by which students come again.
+"""The students of a class: names, folders, and cookies that recognise them again.
 
-The list is in the folder of the class. Of a cookie only its hash is kept, so that who
-reads the list cannot take a student's place.
+The class folder holds the list. It stores only a hash of each cookie, so that a reader
+of the list cannot take a student's place.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from sambot_viz.session.people.looks_alike import same_form
 from sambot_viz.text import json_text, text
 
 ROLL_FILE = ".sambot-class.json"
-"""In the folder of a class."""
+"""Name of the list in the folder of a class."""
 TEACHER = "Teacher"
-"""How the students see who looks over their shoulder."""
+"""Name under which students see a teacher who views their page."""
 _OF_WINDOWS = {"aux", "con", "nul", "prn"} | {
     f"{port}{n}" for port in ("com", "lpt") for n in range(10)
 }
-"""No folder has such a name there."""
+"""Names that Windows does not allow for a folder."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,10 +37,10 @@ class Student:
     """One student of a class.
 
     Attributes:
-        number: from 1, in the order of coming.
-        name: as it was given; another number follows the name of another student.
-        folder: the name of the folder.
-        key: the hash of the cookie.
+        number: from 1, in the order of arrival.
+        name: name as typed; a number follows a name that another student has.
+        folder: name of the folder.
+        key: hash of the cookie.
     """
 
     number: int
@@ -50,17 +50,17 @@ class Student:
 
 
 class Roll:
-    """The students of a class, as the class's folder keeps them.
+    """The students of a class, as stored in the class folder.
 
     Args:
-        folder: of the class; it is made.
+        folder: folder of the class, created if missing.
 
     Attributes:
-        folder: the same.
-        students: by their numbers.
+        folder: the same folder.
+        students: the students by number.
 
     Raises:
-        UsageError: the folder cannot be written, or the list is damaged.
+        UsageError: the folder is not writable, or the list is damaged.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -77,11 +77,11 @@ class Roll:
 
     @property
     def cookie(self) -> str:
-        """The name of the cookie; another class has another one."""
+        """The name of the cookie, different for each class."""
         return f"sambot-class-{self._id}"
 
     def of_key(self, key: str) -> Student | None:
-        """Return the student whose cookie this is; None when it is nobody's."""
+        """Return the student with this cookie; None for an unknown cookie."""
         wanted = _hash(key)
         return next((s for s in self.students.values() if s.key == wanted), None)
 
@@ -89,14 +89,14 @@ class Roll:
         """Add a student.
 
         Args:
-            name: as it was typed.
+            name: name as typed.
 
         Returns:
-            The student, and the cookie.
+            The student and the cookie.
 
         Raises:
-            UsageError: the name cannot be, the class is full, or the folder cannot be
-                written.
+            UsageError: the name is not allowed, the class is full, or the folder is not
+                writable.
         """
         if len(self.students) >= limits.CLASS_STUDENTS.value:
             raise UsageError(f"the class is full: {len(self.students)} students")
@@ -130,7 +130,7 @@ class Roll:
 
         Raises:
             OSError: the list cannot be read.
-            UsageError: it holds something else.
+            UsageError: the file is not a valid list.
         """
         if not self._file.exists():
             return secrets.token_hex(6), []
@@ -168,7 +168,7 @@ def _checked(name: str) -> str:
     """Return a name as others read it.
 
     Raises:
-        UsageError: it is empty or too long, or the teacher's.
+        UsageError: the name is empty, too long, or the teacher's.
     """
     name = " ".join(unicodedata.normalize("NFC", name).split())
     if not same_form(name):
@@ -181,7 +181,7 @@ def _checked(name: str) -> str:
 
 
 def _as_folder(name: str) -> str:
-    """Return the folder of a name, in the letters of any script."""
+    """Return the folder name for a student's name, in letters of any script."""
     plain = unicodedata.normalize("NFKC", name)
     kept = "".join(c if c.isalnum() else " " for c in plain)
     while len("-".join(kept.split()).encode()) > limits.CLASS_FOLDER.value:
@@ -193,6 +193,6 @@ def _as_folder(name: str) -> str:
 
 
 def _numbered(name: str, joint: str) -> Iterator[str]:
-    """Give a name, then the same with numbers."""
+    """Yield the name, then the name with numbers."""
     yield name
     yield from (f"{name}{joint}{number}" for number in itertools.count(2))

@@ -1,8 +1,8 @@
-"""One student's page: a server of its own that only this machine can reach.
+"""A student's page, on a server that only this machine can reach.
 
-Its session is shared by the student's pages, who are its presenters; the teacher, and
-those to whom it is shown, look at the same one. What is typed is written into the
-student's folder by itself.
+All pages of the student share one session and are its presenters. The teacher, and
+students who may see it, view the same session. The server saves the student's text in
+the student's folder.
 """
 
 from __future__ import annotations
@@ -24,21 +24,21 @@ from sambot_viz.session.worker import Throttle
 from sambot_viz.visualizer import Visualizer
 
 PERIOD = 1.0
-"""The board hears of a student at most so often [s]."""
+"""Shortest time between two reports on a student to the board [s]."""
 REST = 2.0
-"""A text is written when nothing was typed for so long [s] …"""
+"""The server saves a text once the student pauses for this time [s] …"""
 LONGEST = 10.0
-"""… and after so long in any case [s]."""
+"""… and after this time in any case [s]."""
 
 
 class Seat:
     """A student's page, from the first visit on.
 
     Args:
-        lesson: what is learnt.
-        folder: of the student.
-        track: the way through the lesson; None for the first, or that of the files.
-        tell: takes how far the student is, at most once a period.
+        lesson: the lesson.
+        folder: folder of the student.
+        track: track of the lesson; None for the first, or the one the files follow.
+        tell: receives the student's progress, at most once a period.
     """
 
     def __init__(
@@ -79,17 +79,17 @@ class Seat:
 
     @property
     def port(self) -> int:
-        """Where it listens, on this machine only."""
+        """The port it listens on, reachable from this machine only."""
         return self._viz.viser.get_port()
 
     @property
     def student_secret(self) -> str:
-        """Lets a program in as the student."""
+        """The secret that lets a program in as the student."""
         return str(self._viz.server.options.presenter)
 
     @property
     def viewer_secret(self) -> str:
-        """Lets a program in to look."""
+        """The secret that lets a program in as a viewer."""
         return str(self._viz.server.options.token)
 
     def say(self, sentence: str) -> None:
@@ -99,19 +99,19 @@ class Seat:
             self._shown.announce(sentence)
 
     def point_to(self, link: str, name: str) -> None:
-        """Offer the page of another student, or no longer with an empty link."""
+        """Offer a link to another student's page; an empty link withdraws the offer."""
         with self._session.lock:
             self._shown.point_to(link, name)
 
     def close(self) -> None:
-        """End; the server writes what is not written."""
+        """Stop the server, which saves unsaved texts."""
         with self._session.lock:
             for end in self._ends:
                 end()
         self._throttle.close()
         self._viz.stop()
 
-    # What is typed
+    # Text from the student
 
     def _note_text(self) -> None:
         now = time.time()
@@ -133,7 +133,7 @@ class Seat:
         self._save()
 
     def _save(self) -> None:
-        """Write each text into its file; the board says what cannot be written."""
+        """Save each text; report a failed save to the board."""
         before, refused = self._trouble, self._text.save_all()
         self._trouble = f"not saved: {refused[-1]}" if refused else ""
         if self._trouble and self._trouble != before:
@@ -141,7 +141,7 @@ class Seat:
         if self._trouble != before:
             self._throttle.request()
 
-    # What the board hears
+    # Reports to the board
 
     def _count_passed(self) -> int:
         steps, progress = self._lesson.steps, self._study.progress

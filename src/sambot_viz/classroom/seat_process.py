@@ -1,4 +1,4 @@
-"""A process with seats, as the program of the class sees it."""
+"""A process with seats, as seen from the program of the class."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from sambot_viz.classroom.seat_state import SeatState
 from sambot_viz.errors import ServerError, UsageError
 
 _LONGEST_START = 60.0
-"""A seat is there after so long at most [s]."""
+"""Longest time that a seat may take to start [s]."""
 _LONGEST_END = 10.0
 _LONGEST_LINE = 2**20
 
 
 @dataclass(frozen=True, slots=True)
 class SeatAddress:
-    """Where the page of a student is, and what lets the class's program in.
+    """The address of a student's page, and the secrets that open it.
 
     Attributes:
-        port: of this machine.
-        student: the secret of the student.
-        viewer: that of those who look.
+        port: port on this machine.
+        student: secret of the student.
+        viewer: secret of viewers.
     """
 
     port: int
@@ -35,15 +35,15 @@ class SeatAddress:
 
 
 class SeatProcess:
-    """A child process with the seats of some students; made again when it has died.
+    """A child process with some students' seats; restarted if it has died.
 
     Args:
-        lesson: the file of the lesson.
-        track: the way through it.
-        tell: takes the number of a student, and how far that is.
+        lesson: file of the lesson.
+        track: track of the lesson.
+        tell: receives the number of a student and the student's progress.
 
     Attributes:
-        seats: those that are open, by the numbers of their students.
+        seats: the open seats, by student number.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class SeatProcess:
         """Start the process, unless it runs.
 
         Raises:
-            ServerError: it was closed.
+            ServerError: the process has been closed.
         """
         async with self._starting:
             if self._reading is not None and not self._reading.done():
@@ -78,7 +78,7 @@ class SeatProcess:
                 stdin=asyncio.subprocess.PIPE,
                 stdout=asyncio.subprocess.PIPE,
                 limit=_LONGEST_LINE,
-                # Ctrl-C is for the class's program, which then ends this one.
+                # Ctrl-C goes to the program of the class, which then ends this process.
                 start_new_session=True,
             )
             self._send(self._first)
@@ -88,7 +88,7 @@ class SeatProcess:
         """Open the seat of a student, unless it is open.
 
         Raises:
-            UsageError: the files of the student cannot be written.
+            UsageError: the student's files are not writable.
             ServerError: the process does not answer.
         """
         await self.start()
@@ -107,12 +107,12 @@ class SeatProcess:
             self._waiting.pop(number, None)
 
     def order(self, what: str, number: int, **fields: str) -> None:
-        """Order something for a student; nothing is done without a seat."""
+        """Send an order for a student; do nothing if the student has no seat."""
         if number in self.seats:
             self._send({"do": what, "number": number, **fields})
 
     async def close(self) -> None:
-        """Let it tell its pages, and write what is not written, and end it."""
+        """End the process, which first notifies its pages and saves unsaved texts."""
         self._ended = True
         process = self._process
         if process is None or process.stdin is None:

@@ -1,4 +1,4 @@
-"""What the board shows of a student."""
+"""A student's state, as the board shows it."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from sambot_viz.lessons.progress import Progress
 
 @dataclass(frozen=True, slots=True)
 class SeatState:
-    """How far a student is, and what is wrong there now.
+    """A student's progress and current problems.
 
     Attributes:
-        step: the number of the step that comes next, from 1; all have held when it is
-            one more than there are.
-        title: its heading.
-        tries: how often it has failed.
-        points: what is earned so far.
-        errors: how many problems of severity error there are.
-        warnings: how many of severity warning.
-        unmet: how much of the step that is shown does not hold.
+        step: number of the next step, from 1; one more than the number of steps when
+            all conditions hold.
+        title: heading of the step.
+        tries: number of failed attempts.
+        points: points so far.
+        errors: number of problems of severity error.
+        warnings: number of problems of severity warning.
+        unmet: number of conditions of the shown step that do not hold.
         first: the first of them, in words.
-        pages: how many pages the student has open.
-        changed: when the student last changed a text [s since 1970]; 0 for never.
-        since: when a step has held last, or the student has come [s since 1970].
-        trouble: why something of the student cannot be kept; "" when all is.
+        pages: number of pages that the student has open.
+        changed: time of the student's last change of a text [s since 1970]; 0 for none.
+        since: time of the last completed step, or of arrival [s since 1970].
+        trouble: reason why the student's work cannot be saved; "" when it can.
     """
 
     step: int
@@ -58,7 +58,7 @@ class SeatState:
 
     @classmethod
     def on_disk(cls, lesson: Lesson, folder: Path) -> SeatState:
-        """Return the state of a student who has no page yet since the program began."""
+        """Return the state of a student who has not opened a page since the start."""
         progress = Progress(folder, lesson.name)
         kept = progress.file if progress.file.is_file() else folder
         return cls.of(lesson, progress, since=kept.stat().st_mtime)
@@ -74,5 +74,5 @@ class SeatState:
 
     @property
     def stuck(self) -> bool:
-        """Whether something that the student has written is wrong, or has failed."""
+        """Return whether the student's text has a mistake, or an attempt has failed."""
         return self.tries > 0 or (self.errors > 0 and self.changed > 0)

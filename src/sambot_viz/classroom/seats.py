@@ -1,8 +1,8 @@
 """The program of a few seats: `python -m sambot_viz.classroom.seats`.
 
-It is a process of its own, so that the seats of a class share all cores, and what one
-student writes cannot hold up the whole class. Its orders are lines of JSON on standard
-input, its answers lines on standard output; it ends with the first of these streams.
+It runs as a separate process, so that the seats of a class use all cores and one
+student's text cannot block the whole class. Orders arrive as lines of JSON on standard
+input, answers leave as lines on standard output. It ends when either stream closes.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from sambot_viz.lessons.read_lesson import open_lesson
 
 
 class Seats:
-    """Seats by the numbers of their students, and where they answer.
+    """Seats by student number, and the stream for their answers.
 
     Args:
-        out: takes lines.
+        out: receives lines.
     """
 
     def __init__(self, out: Any) -> None:
@@ -34,7 +34,7 @@ class Seats:
         self._seats: dict[int, Seat] = {}
 
     def run(self, lines: Any) -> None:
-        """Carry out orders until there are no more."""
+        """Carry out orders until the input ends."""
         first = json.loads(next(lines))
         self._lesson, self._track = open_lesson(first["lesson"]), first["track"]
         self._answer(ready=True)
@@ -78,10 +78,10 @@ class Seats:
 
 def main() -> None:
     """Serve seats until standard input ends."""
-    # A service manager tells all processes of a class to end. This one ends with the
-    # class's program, when the texts of its students are written.
+    # A service manager sends SIGTERM to all processes of a class. This process ends
+    # with the program of the class, once the texts of its students are saved.
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
-    # Nothing else may write between the answers.
+    # Only answers may go to this stream.
     out = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)
     Seats(out).run(iter(sys.stdin.readline, ""))

@@ -1,1 +1,1 @@
-"""The text of the model in a session: what its users write, and what is on the disk."""
+"""The model's text in a session: users' changes and the files on disk."""

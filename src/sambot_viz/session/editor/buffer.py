@@ -1,7 +1,7 @@
-"""A file that is open in an editor: its text, and what is on the disk.
+"""A file that is open in an editor: its text and its contents on disk.
 
-What another program saves is merged with what users have written; where both have
-changed the same lines, they choose.
+Saves by other programs are merged with the text of the users. Where both have changed
+the same lines, the users choose.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from sambot_viz.session.editor.three_way import Segment, segments
 
 
 class Replacement(NamedTuple):
-    """A part of a text, and what takes its place."""
+    """A part of a text and its replacement."""
 
     extent: Extent
     text: str
 
 
 def replaced(text: str, changes: Iterable[Replacement]) -> str:
-    """Return a text with changes of different parts, in any order."""
+    """Apply changes to separate parts of a text, in any order."""
     for (start, end), new in sorted(changes, reverse=True):
         text = text[:start] + new + text[end:]
     return text
@@ -37,15 +37,14 @@ class Buffer:
     """A file in an editor.
 
     Attributes:
-        path: the whole path.
-        name: what users call it: its path in the package, with slashes.
-        disk: what was on the disk when the text began, or was saved, with what was
-            merged since.
-        text: as it is in the editor.
-        version: another number for another text.
-        theirs: what another program has saved meanwhile and could not be merged; None
-            when nothing has.
-        merges: how often something was merged.
+        path: absolute path.
+        name: name that users see: the path in the package, with slashes.
+        disk: contents of the file when it was opened or last saved, with later merges.
+        text: text in the editor.
+        version: number that changes with the text.
+        theirs: contents that another program saved and that could not be merged; None
+            without such a conflict.
+        merges: number of merges so far.
     """
 
     path: Path
@@ -64,27 +63,27 @@ class Buffer:
 
     @property
     def why(self) -> str:
-        """Why it cannot be shown as text; "" when it can."""
+        """The reason why the file cannot be shown as text; "" when it can."""
         return self.disk.why
 
     @property
     def is_changed(self) -> bool:
-        """Whether the text is another one than that on the disk was."""
+        """Return whether the text differs from the text on disk."""
         is_gone = self.disk.data is None and not self.disk.why
         return self.text != self.disk.text or is_gone
 
     @property
     def conflicts(self) -> list[Replacement]:
-        """The lines that another program has changed too, with what it has written."""
+        """The lines that another program has changed too, with its version of them."""
         if self.theirs is None or self.theirs.data is None or self.theirs.why:
             return []
         return [made for made, part in self._against(self.theirs) if _is_open(part)]
 
     def take(self, text: str) -> None:
-        """Take another text.
+        """Replace the whole text.
 
         Raises:
-            UsageError: it is too long, or no text that a file can hold.
+            UsageError: the text is too long, or a file cannot hold it.
         """
         if len(text) > limits.EDITED_TEXT.value:
             raise UsageError(
@@ -100,13 +99,13 @@ class Buffer:
         """Replace a part of the text.
 
         Args:
-            version: of the text that the offsets are for.
-            start: of the part [UTF-16 units].
-            end: behind it [UTF-16 units].
-            new: what is written there.
+            version: version of the text that the offsets refer to.
+            start: start of the part [UTF-16 units].
+            end: end of the part, exclusive [UTF-16 units].
+            new: new text of the part.
 
         Returns:
-            False when the text has changed meanwhile; nothing is done then.
+            False when the text has changed meanwhile; the call then does nothing.
 
         Raises:
             UsageError: as `take`.
@@ -120,10 +119,10 @@ class Buffer:
         return True
 
     def look(self) -> bool:
-        """Compare with the disk, after another program may have saved the file.
+        """Compare the text with the disk, after another program may have saved it.
 
         Returns:
-            Whether anything has changed here.
+            True if the buffer has changed.
         """
         found = read_file_text(self.path)
         seen = self.disk if self.theirs is None else self.theirs
@@ -150,10 +149,10 @@ class Buffer:
         self._end_conflict()
 
     def keep(self, place: int | None = None) -> None:
-        """Let the text be saved over what another program has saved.
+        """Allow a save to overwrite another program's changes.
 
         Args:
-            place: where the lines of one conflict begin; None for all.
+            place: start of the lines of one conflict; None for all conflicts.
         """
         if self.theirs is None:
             return
@@ -166,7 +165,7 @@ class Buffer:
             self.disk, self.theirs = replace(self.theirs, why=""), None
 
     def taken(self, place: int | None = None) -> list[Replacement]:
-        """Return how the text becomes that of another program, where both changed it.
+        """Return the changes that accept another program's version of conflicts.
 
         Args:
             place: as for `keep`.
@@ -174,9 +173,9 @@ class Buffer:
         return [m for m in self.conflicts if place is None or m.extent.start == place]
 
     def revert(self) -> list[Replacement]:
-        """Return how the text becomes that on the disk, which counts from now on.
+        """Return the changes that restore the text on disk, the new base of the buffer.
 
-        What cannot be shown as text takes its place at once.
+        Contents that are not text replace the buffer at once.
         """
         found = read_file_text(self.path)
         if self.why or found.data is None or found.why:
@@ -198,13 +197,13 @@ class Buffer:
             self.disk, self.theirs = theirs, None
 
     def saved(self, data: bytes) -> None:
-        """Note that the text is on the disk now."""
+        """Record that the text has been saved."""
         self.disk = FileText(data, self.text, self.disk.encoding)
         self.theirs = None
 
     def _begin(self, disk: FileText) -> None:
         if disk.data is None and self.disk.data is not None:
-            # The file is gone, its text is not.
+            # The file has been removed, but its text remains.
             self.disk, self.theirs = replace(disk, text=self.text, why=""), None
             return
         self.disk, self.theirs = disk, None
@@ -214,5 +213,5 @@ class Buffer:
 
 
 def _is_open(part: Segment) -> bool:
-    """Tell whether another program has changed lines that are otherwise here."""
+    """Return whether another program has changed lines that differ here."""
     return part.theirs not in (part.base, part.mine)

@@ -1,6 +1,6 @@
-"""A file as text in an editor, where each line ends with a line feed.
+"""A file as text for an editor, with a line feed at the end of each line.
 
-What a user has not changed is written as it was: encoding, byte order mark, line ends.
+Parts that no user has changed keep their encoding, byte order mark and line ends.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ _END = re.compile(r"\r\n|\r|\n")
 
 @dataclass(frozen=True, slots=True)
 class FileText:
-    """What is in a file.
+    """The contents of a file.
 
     Attributes:
-        data: its bytes; None when there is no such file, or it cannot be read.
-        text: the same with line feeds at the ends of lines; "" for what is not text.
-        encoding: how `data` is written.
-        why: why it cannot be shown as text; "" when it can.
+        data: its bytes; None when the file does not exist or cannot be read.
+        text: its text with line feeds at the ends of lines; "" for a binary file.
+        encoding: encoding of `data`.
+        why: reason why the file cannot be shown as text; "" when it can.
     """
 
     data: bytes | None
@@ -33,17 +33,17 @@ class FileText:
     why: str = ""
 
     def encoded(self, text: str) -> bytes:
-        """Return the bytes of another text as this file writes it.
+        """Encode another text the way this file is encoded.
 
         Raises:
-            UnicodeEncodeError: its encoding does not have a character of it.
+            UnicodeEncodeError: the encoding lacks a character of the text.
         """
         before = "" if self.data is None else self.data.decode(self.encoding)
         return _with_ends(text, before).encode(self.encoding)
 
 
 def read_file_text(path: Path) -> FileText:
-    """Read a file for an editor; a reason takes the place of what cannot be shown."""
+    """Read a file for an editor; `why` gives the reason if it cannot be shown."""
     try:
         data = read_limited(path, limits.EDITED_TEXT.value)
     except FileTooLargeError as error:
@@ -60,7 +60,7 @@ def read_file_text(path: Path) -> FileText:
 
 
 def _with_ends(text: str, before: str) -> str:
-    """End lines as in a text before; those that are new as most of its lines do."""
+    """End old lines as before, and new lines as most of the old ones end."""
     ends = _END.findall(before)
     kinds = dict.fromkeys(ends)
     if not set(kinds) - {"\n"}:
@@ -87,11 +87,11 @@ def _with_ends(text: str, before: str) -> str:
 
 
 def from_units(text: str, units: int) -> int:
-    """Return the offset in characters of one in UTF-16 units, as browsers count.
+    """Convert an offset in UTF-16 units, as browsers count, to one in characters.
 
     Args:
         text: the text.
-        units: the offset; one behind the end of the text is its end.
+        units: the offset; an offset past the end of the text becomes its end.
     """
     if text.isascii():
         return min(units, len(text))
@@ -99,7 +99,7 @@ def from_units(text: str, units: int) -> int:
 
 
 def to_units(text: str, offset: int) -> int:
-    """Return an offset in characters as one in UTF-16 units."""
+    """Convert an offset in characters to one in UTF-16 units."""
     if text.isascii():
         return offset
     return len(text[:offset].encode("utf-16-le")) // 2

@@ -1,4 +1,4 @@
-"""The keys and values that an editor offers in parameter files: those `check` knows."""
+"""Keys and values that an editor offers in parameter files: those `check` knows."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.robot.model import Robot
 
 Keys = Mapping[str, tuple[str, ...]]
-"""Parameter → the values that are offered for it."""
+"""Parameter → the values that the editor offers for it."""
 
 _TOP = re.compile(r"^ *[\"']?/?(?:[\w*]+/)*([\w*]+)[\"']?:\s*$", re.MULTILINE)
 _ITEM = re.compile(r"^- +\w+:", re.MULTILINE)
 _FRAMES_BESIDE = ("map", "odom")
-"""Frames that no model has, and most robots."""
+"""Frames that most robots have, but no model."""
 
 
 def offered_keys(robot: Robot | None, text: str) -> dict[str, Keys]:
-    """Return what a parameter file may have.
+    """Return the keys that a parameter file may have.
 
     Args:
-        robot: its links are offered as frames.
-        text: of the file.
+        robot: robot whose links become offered frames.
+        text: text of the file.
 
     Returns:
-        Node that the file names → its parameters. The list of a bridge, which names
-        none, is "-"; "" has the names of all nodes.
+        Node in the file → its parameters. "-" holds the keys of a bridge's list, which
+        names no nodes; "" holds the names of all nodes.
     """
     if _ITEM.search(text):
         return {"-": _bridge()}
@@ -70,7 +70,7 @@ def _parameters(
     for block in blocks:
         for name, known in block.parameters.items():
             values = _values(known, frames)
-            # odomN is odom0; of a name with dots each part is a key.
+            # odomN becomes odom0; each part of a dotted name is a key.
             parts = re.sub(r"N(?=\d|$|\.|_)", "0", name).split(".")
             yield from ((part, ()) for part in parts[:-1] if part != "*")
             if parts[-1] != "*":

@@ -1,4 +1,4 @@
-"""The files of a server's model: what they are called, and how they are loaded."""
+"""The files of a server's model: their names and how to load them."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from sambot_viz.session.model_edits import packages_of
 
 @dataclass(frozen=True)
 class ModelFiles:
-    """The files of the model of a server.
+    """The files of a server's model.
 
     Attributes:
-        model: the whole path of its file.
-        load: loads a model file with other texts of its files, by their whole paths;
-            the second argument is False where they come from a user who may not write
-            them, the last one has values of ``xacro:arg`` in place of `arguments`.
-        arguments: those of the command line.
-        folder: the whole path of a student's folder, whose files are all there to be
-            written; None for the package of the model.
-        others: further files that are there to be written.
-        trusted: whether the files of the server are evaluated as trusted ones.
+        model: absolute path of the model file.
+        load: loads a model file with other texts for its files, keyed by absolute path;
+            the second argument is False for texts of a user who may not write the
+            files, the last one holds values of ``xacro:arg`` that replace `arguments`.
+        arguments: arguments from the command line.
+        folder: absolute path of a student's folder, in which every file may be written;
+            None for the package of the model.
+        others: further files that users may write.
+        trusted: True to evaluate the server's files as trusted ones.
     """
 
     model: Path
@@ -37,7 +37,7 @@ class ModelFiles:
     trusted: bool = True
 
     def named(self, paths: Iterable[Path]) -> Iterator[tuple[str, Path]]:
-        """Yield the name of each file that is in the package, and its whole path.
+        """Yield the name and the absolute path of each file in the package.
 
         A name is the path in the package, with slashes.
         """

@@ -1,7 +1,7 @@
-"""The properties and arguments of a model, and where users have moved them.
+"""The properties and arguments of a model, and the values that users move them to.
 
-A number that was moved is laid over the text of its file, an argument is given to
-xacro; neither is a change of the text until it is written there.
+A moved property replaces the number in the file's text, a moved argument goes to xacro.
+Neither changes the text until the user writes it there.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ class ModelNumber:
     """A property or an argument of the model.
 
     Attributes:
-        id: the same as long as it is the same one in its file.
-        file: the name of that file.
-        named: what the file says of it.
-        given: what the command line gives for it; "" for nothing.
-        before: the value without moving it; None for an expression.
-        moved: where a user has moved it; None for nowhere.
+        id: identifier that lasts as long as the number stays in its file.
+        file: name of that file.
+        named: its definition in the file.
+        given: value from the command line; "" for none.
+        before: value without the move; None for an expression.
+        moved: value that a user has chosen; None for none.
     """
 
     id: str
@@ -37,23 +37,23 @@ class ModelNumber:
 
     @property
     def written(self) -> str:
-        """The moved value as it is written into a file."""
+        """The moved value in the form in which a file holds it."""
         return "" if self.moved is None else f"{self.moved:.9g}"
 
     @property
     def can_write(self) -> bool:
-        """Whether the moved value may be written in place of the one in the file."""
+        """Return whether the moved value may replace the one in the file."""
         return (
             self.moved is not None and self.named.value is not None and not self.given
         )
 
 
 class ModelSources(NamedTuple):
-    """The files that a model is made of.
+    """The files that make up a model.
 
     Attributes:
         texts: file → its text.
-        names: file → what users call it; numbers of others cannot be changed.
+        names: file → its name for users, who cannot change numbers of other files.
     """
 
     texts: Mapping[str, str]
@@ -65,13 +65,13 @@ class ModelNumbers:
 
     Args:
         given: values of arguments on the command line.
-        sources: returns the texts as they are in the editor.
-        change: of the session.
-        moved: those that are moved from the beginning.
+        sources: returns the texts in the editor.
+        change: change signal of the session.
+        moved: numbers that are moved from the start.
 
     Attributes:
-        moved: id → the value of each number that was moved.
-        changed: told when others are moved than before.
+        moved: id → value of each moved number.
+        changed: signal that other numbers have moved.
     """
 
     def __init__(
@@ -87,7 +87,7 @@ class ModelNumbers:
         self.changed = Signal(change, None)
 
     def listed(self) -> list[ModelNumber]:
-        """Return all, in the order of the files."""
+        """Return all numbers, in the order of the files."""
         texts, names = self._sources()
         if texts != self._read[0]:
             sources = {file: SourceText(text) for file, text in texts.items()}
@@ -102,29 +102,29 @@ class ModelNumbers:
         moved = None if before is None else self.moved.value.get(key)
         return ModelNumber(key, file, named, given, before, moved)
 
-    # What users do; with the session locked.
+    # Actions of users; the caller holds the session's lock.
 
     def move(self, number_id: str, value: float | None) -> None:
         """Show the model with another number, and leave its text alone.
 
         Args:
-            number_id: of the number.
-            value: the number; None for the one that it has without moving it.
+            number_id: id of the number.
+            value: new value; None for the value in the file.
         """
         self._set({**self.moved.value, number_id: value})
 
     def reset(self) -> Mapping[str, float]:
-        """Take all numbers back; return those that were moved, for `restore`."""
+        """Move all numbers back; return the moved ones, for `restore`."""
         before = self.moved.value
         self._set({})
         return before
 
     def restore(self, moved: Mapping[str, float]) -> None:
-        """Move numbers to where they were before `reset`."""
+        """Move numbers to their values from before `reset`."""
         self._set(moved)
 
     def forget(self) -> None:
-        """Forget what is written by now, or no longer there."""
+        """Forget moves that a file now holds, and numbers that no longer exist."""
         if self.moved.value:
             self._set(self.moved.value)
 
@@ -141,7 +141,7 @@ class ModelNumbers:
 
 
 def arguments_of(numbers: Iterable[ModelNumber]) -> dict[str, str]:
-    """Return the arguments that were moved, with their values for xacro."""
+    """Return the moved arguments, with their values for xacro."""
     return {
         n.named.name: n.written
         for n in numbers
@@ -150,11 +150,11 @@ def arguments_of(numbers: Iterable[ModelNumber]) -> dict[str, str]:
 
 
 def laid_over(text: str, numbers: Iterable[ModelNumber]) -> str:
-    """Return the text of a file with the properties where they were moved.
+    """Return the text of a file with its moved properties.
 
     Args:
-        text: of the file.
-        numbers: those of this file.
+        text: text of the file.
+        numbers: numbers of this file.
     """
     for one in sorted(numbers, key=_start, reverse=True):
         if one.moved is not None and one.named.kind == "property":
