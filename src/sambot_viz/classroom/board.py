@@ -1,4 +1,4 @@
-"""The teacher's board: a row for each student, those who are stuck first."""
+"""The teacher's board: a row for each student, stuck students first."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from sambot_viz.lessons.study import Study
 from sambot_viz.lessons.writers import WRITERS
 
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
-"""A spreadsheet takes a cell that begins with one of these for a formula."""
+"""First characters that make a spreadsheet read a cell as a formula."""
 COLUMNS = (
     "name",
     "folder",
@@ -40,16 +40,16 @@ COLUMNS = (
 
 
 class Board:
-    """How far all students are, and who follows that.
+    """The progress of all students, and the pages that follow it.
 
     Args:
-        lesson: what is learnt.
-        roll: who is there.
-        track: the way through the lesson; None for that of the files.
+        lesson: the lesson.
+        roll: the students of the class.
+        track: track of the lesson; None for the one that the files follow.
 
     Attributes:
-        title: of the lesson.
-        shown: the number of the student whose page is shown to all; 0 for none.
+        title: title of the lesson.
+        shown: number of the student whose page is shown to the class; 0 for none.
     """
 
     def __init__(self, lesson: Lesson, roll: Roll, track: str | None = None) -> None:
@@ -61,23 +61,23 @@ class Board:
             self.look_up(student)
 
     def look_up(self, student: Student) -> None:
-        """Take how far a student is from the student's folder."""
+        """Read a student's progress from the student's folder."""
         folder = self._roll.folder / student.folder
         try:
             state = SeatState.on_disk(self._lesson, folder)
         except OSError:
-            # A teacher has taken the folder away.
+            # A teacher has removed the folder.
             state = SeatState.of(self._lesson, Progress(folder, self._lesson.name))
         self.take(student.number, state)
 
     def take(self, number: int, state: SeatState) -> None:
-        """Take how far a student is, and tell it."""
+        """Take a student's new state, and notify the followers."""
         if number in self._roll.students:
             self._states[number] = state
             self._tell(number)
 
     def show(self, number: int) -> None:
-        """Note which student's page is shown to all; 0 for none."""
+        """Record whose page is shown to the class; 0 for none."""
         before, self.shown = self.shown, number
         for changed in {before, number} - {0}:
             self._tell(changed)
@@ -87,7 +87,7 @@ class Board:
             follower.note(number)
 
     def row(self, number: int) -> dict[str, Any]:
-        """Return what a page shows of a student, and its place in the order."""
+        """Return a student's row for the page, with its place in the order."""
         student, state = self._roll.students[number], self._states[number]
         return {
             "number": number,
@@ -99,13 +99,13 @@ class Board:
         }
 
     def _place(self, number: int) -> list[float]:
-        """Return what rows are sorted by: who is stuck for longest comes first."""
+        """Return the sort key of a row: the student stuck for longest comes first."""
         state = self._states[number]
         done = state.step > len(self._lesson.steps)
         return [done, not state.stuck, state.since, number]
 
     def begin(self) -> dict[str, Any]:
-        """Return all that a board begins with."""
+        """Return the first state that a board receives."""
         return {
             "lesson": self._lesson.title,
             "steps": len(self._lesson.steps),
@@ -116,21 +116,21 @@ class Board:
         }
 
     def follow(self) -> BoardFollower:
-        """Return what tells each change from now on; close it at the end."""
+        """Return a follower of all changes from now on; close it at the end."""
         follower = BoardFollower(self._followers.discard)
         self._followers.add(follower)
         return follower
 
-    # What is taken home
+    # Files to take home
 
     def csv(self) -> bytes:
-        """Return the state of all, those who are stuck first."""
+        """Return the state of all students as CSV, stuck students first."""
         out = io.StringIO()
         writer = csv.writer(out)
         writer.writerow(COLUMNS)
         for number in sorted(self._states, key=self._place):
             writer.writerow(_plain(cell) for cell in self._cells(number))
-        # Excel takes a file without the mark for one in another encoding.
+        # Without the byte order mark, Excel assumes another encoding.
         return f"\ufeff{out.getvalue()}".encode()
 
     def _cells(self, number: int) -> Iterator[object]:
@@ -143,7 +143,7 @@ class Board:
     def collect(self, into: Path) -> None:
         """Write a zip with the files, the progress and the grade of each student.
 
-        It takes a second or more for each: call it in a thread.
+        It takes a second or more for each student: call it in a thread.
         """
         with zipfile.ZipFile(into, "w", zipfile.ZIP_DEFLATED) as archive:
             archive.writestr("class.csv", self.csv())
@@ -161,13 +161,12 @@ class Board:
 
 
 class BoardFollower:
-    """The rows that have changed since they were last asked for.
+    """The rows that have changed since the last question.
 
-    Each is kept once, however often it changes, so a page that reads slowly costs no
-    memory.
+    Each row is stored once, however often it changes, so a slow page costs no memory.
 
     Args:
-        leave: called with this at the end.
+        leave: called with this follower at the end.
     """
 
     def __init__(self, leave: Callable[[BoardFollower], object]) -> None:
@@ -176,12 +175,12 @@ class BoardFollower:
         self._leave = leave
 
     def note(self, number: int) -> None:
-        """Note that a row has changed; on the loop."""
+        """Record that a row has changed; call it on the event loop."""
         self._numbers[number] = None
         self._changed.set()
 
     async def changed(self, timeout: float) -> list[int]:
-        """Return the numbers of the rows; none when nothing has changed so long [s]."""
+        """Return the numbers of changed rows; empty after the timeout [s]."""
         try:
             await asyncio.wait_for(self._changed.wait(), timeout)
         except asyncio.TimeoutError:
@@ -191,17 +190,17 @@ class BoardFollower:
         return [*numbers]
 
     def close(self) -> None:
-        """Follow no longer."""
+        """Stop following."""
         self._leave(self)
 
 
 def event(value: Any) -> bytes:
-    """Return a value as a server-sent event."""
+    """Encode a value as a server-sent event."""
     return f"data: {json.dumps(value)}\n\n".encode()
 
 
 def _plain(cell: object) -> object:
-    """Return a cell that no spreadsheet computes."""
+    """Return a cell that no spreadsheet evaluates as a formula."""
     is_formula = isinstance(cell, str) and cell.startswith(_FORMULA)
     return f"'{cell}" if is_formula else cell
 

@@ -31,7 +31,7 @@ _SAID: dict[RobotState, str] = {
     "away": "does not answer",
 }
 _AGAIN = 10
-"""Browsers load the page again after so long [s]."""
+"""Browsers reload the page after this time [s]."""
 _DRAIN = 15.0
 _POLICY = (
     "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; "
@@ -56,13 +56,13 @@ def index_page(
     states: Sequence[RobotState],
     opened_at: str,
 ) -> str:
-    """Return the page.
+    """Return the index page.
 
     Args:
-        title: its heading.
-        robots: in order.
-        states: of each.
-        opened_at: the name or address by which it was opened.
+        title: heading of the page.
+        robots: robots in order.
+        states: state of each robot.
+        opened_at: name or address under which the browser opened the page.
     """
     rows = "".join(
         f"<tr><td>{_named(robot, opened_at)}</td>"
@@ -91,9 +91,9 @@ class RobotIndex:
     """Serves the index, from `start` to `stop`.
 
     Args:
-        options: where it listens, and its token.
-        title: the heading of the page.
-        robots: in order.
+        options: address to listen on, and the token.
+        title: heading of the page.
+        robots: robots in order.
 
     Raises:
         ServerError: the address cannot be listened on.
@@ -118,16 +118,16 @@ class RobotIndex:
 
     @property
     def url(self) -> str:
-        """The address to open."""
+        """The address of the page."""
         return page_url(self.options, "", self.port)
 
     def __enter__(self) -> RobotIndex:
-        """Listen from now on."""
+        """Start listening."""
         self._thread.start()
         return self
 
     def __exit__(self, *_: object) -> None:
-        """End, and free the port."""
+        """Stop, and free the port."""
         self._loop.call_soon_threadsafe(self._end.set)
         self._thread.join()
         self._socket.close()
@@ -161,7 +161,7 @@ class RobotIndex:
                 writer.write(response.serialize())
                 await asyncio.wait_for(writer.drain(), _DRAIN)
         except (BadRequestError, OSError, UnicodeError, asyncio.CancelledError):
-            # Whoever it was has gone, or sends what no browser does.
+            # The client has left, or sends requests that browsers do not make.
             pass
         finally:
             self._open.discard(task)

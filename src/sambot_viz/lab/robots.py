@@ -1,4 +1,4 @@
-"""A robot's page as the index knows it, and its state, which its server says."""
+"""A robot in the index of a lab, and the state that its server reports."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from sambot_viz.server.protection.access import only_this_machine
 from sambot_viz.server.readiness import READY
 
 RobotState = Literal["ready", "waiting", "stopping", "locked", "other", "away"]
-"""What a server says of itself; "locked" behind a login, "other" for another program,
-and "away" when nothing answers."""
+"""The state that a server reports; "locked" for a server that requires a login,
+"other" for another program, and "away" for a server that does not answer."""
 _PATIENCE = 2.0
-"""A server that does not answer for so long is away [s]."""
+"""A server that does not answer within this time is away [s]."""
 _FRESH = 3.0
-"""States are asked for at most this often, whoever opens the index [s]."""
+"""Shortest time between two questions for the states, however many users ask [s]."""
 _AT_ONCE = 16
 _LONGEST = 64
-"""More is not read of an answer [bytes]."""
+"""Longest part of an answer that is read [bytes]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,12 +30,12 @@ class IndexedRobot:
     """A robot of the index.
 
     Attributes:
-        name: what people read.
-        asked: the address at which its state is asked, without a slash at the end.
-        shown: the address that browsers open; "" for a port of this machine.
-        host: what the server listens on, for a port of this machine.
-        port: the same.
-        base_path: the same.
+        name: name that users read.
+        asked: address that reports its state, without a slash at the end.
+        shown: address that browsers open; "" for a port of this machine.
+        host: address its server listens on, for a port of this machine.
+        port: port of that server.
+        base_path: base path of that server.
     """
 
     name: str
@@ -46,10 +46,10 @@ class IndexedRobot:
     base_path: str = "/"
 
     def link(self, opened_at: str) -> str:
-        """Return the address of the page; "" where it cannot be opened from.
+        """Return the address of the page; "" where the user cannot open it.
 
         Args:
-            opened_at: the name or address by which the index was opened.
+            opened_at: name or address under which the browser opened the index.
         """
         if self.shown:
             return self.shown
@@ -60,7 +60,7 @@ class IndexedRobot:
 
 
 class _NoRedirects(urllib.request.HTTPRedirectHandler):
-    """Follow no answer elsewhere: a login is where it leads."""
+    """Do not follow redirects: they lead to a login."""
 
     def redirect_request(
         self, req: Any, fp: Any, code: Any, msg: Any, headers: Any, newurl: Any
@@ -69,11 +69,11 @@ class _NoRedirects(urllib.request.HTTPRedirectHandler):
 
 
 _OPENER = urllib.request.build_opener(urllib.request.ProxyHandler({}), _NoRedirects())
-"""Asks a server itself: robots are in this network, whatever proxy leads out of it."""
+"""Asks a server directly: robots are in this network, not beyond a proxy."""
 
 
 def state_of(robot: IndexedRobot) -> RobotState:
-    """Ask the server of a robot for its state; it takes two seconds at most."""
+    """Ask a robot's server for its state; takes two seconds at most."""
     try:
         with _OPENER.open(f"{robot.asked}{READY}", timeout=_PATIENCE) as answer:
             status, content = answer.status, answer.read(_LONGEST)
@@ -91,10 +91,10 @@ def state_of(robot: IndexedRobot) -> RobotState:
 
 
 class RobotStates:
-    """The states of all robots, asked for when somebody wants to know them.
+    """The states of all robots, requested when a user opens the index.
 
     Args:
-        robots: of the index.
+        robots: robots of the index.
     """
 
     def __init__(self, robots: Sequence[IndexedRobot]) -> None:
@@ -103,7 +103,7 @@ class RobotStates:
         self._known: list[RobotState] = []
 
     async def get(self) -> Sequence[RobotState]:
-        """Return the state of each robot, some seconds old at most."""
+        """Return the state of each robot, at most a few seconds old."""
         async with self._lock:
             if time.monotonic() - self._asked >= _FRESH:
                 free = asyncio.Semaphore(_AT_ONCE)

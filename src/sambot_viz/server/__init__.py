@@ -1,1 +1,1 @@
-"""The running server: its port, its browsers, and following the files."""
+"""The running server: its port, its browsers, and the files it follows."""

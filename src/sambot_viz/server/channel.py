@@ -1,18 +1,17 @@
-"""The page's own websocket, beside viser's: rows and cameras, out and in.
+"""The page's own websocket, beside viser's: sends rows, exchanges cameras.
 
-It is on the same port and behind the same checks as viser's connection, with a
-subprotocol of its own. `server.tickets` knows which connection to viser is the same
-page's.
+It uses the same port and passes the same checks as viser's connection, with its own
+subprotocol. `server.tickets` finds the connection to viser of the same page.
 
-The server sends JSON objects: what the page lacks of the rows (`panels.row_store`), as
-text or, when long, compressed in a binary frame, and the camera that it is asked for
-(`session.clients.client_camera`). The page sends JSON lists: an edit, or what a button
-does (`panels.sent`); and objects: where its camera is. It may ask ``"ping"`` at
-any time and is answered ``"pong"`` behind everything that its edits before have changed
-so far; a page that gets no answer knows that its connection is lost.
+The server sends JSON objects: the rows that the page lacks (`panels.row_store`), as
+text or, when long, compressed in a binary frame, and the camera that the page should
+use (`session.clients.client_camera`). The page sends JSON lists for edits and pressed
+buttons (`panels.sent`), and JSON objects for its camera. It may ask ``"ping"`` at any
+time. The answer ``"pong"`` follows all changes that its earlier edits have caused so
+far. A page that gets no answer knows that its connection is lost.
 
-A patch is made when the connection can take one. So a slow page gets the newest state,
-and no queue.
+The server makes a patch only when the connection can take one. So a slow page gets the
+newest state, and no queue builds up.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ from sambot_viz.server.protection.client_messages import CameraReport
 from sambot_viz.server.protection.inbound_filter import ClientHandler, report
 
 SUBPROTOCOL = "sambot-viz-1"
-"""Another number: an older page cannot talk to this server."""
+"""Change the number when older pages can no longer talk to this server."""
 PING, PONG = '"ping"', '"pong"'
 
 
@@ -41,8 +40,8 @@ class Channel:
     """The channel of one page.
 
     Args:
-        connection: the connection.
-        handler: gives who takes the edits at present.
+        connection: connection of the page.
+        handler: returns the current receiver of edits.
     """
 
     def __init__(
@@ -55,13 +54,13 @@ class Channel:
         self._news = asyncio.Event()
 
     async def read(self) -> None:
-        """Take what the page sends, until its connection ends."""
+        """Handle the page's messages until its connection ends."""
         in_flight = InFlightLimit(self._behind)
         while True:
             message = await self.connection.receive()
             if (pause := self.connection.rate.take()) > 0.0:
                 if self.connection.state is not State.OPEN:
-                    # It has left a flood, which nobody has to wait for.
+                    # The client left during a flood; its messages can be dropped.
                     continue
                 await asyncio.sleep(pause)
             await in_flight.wait()
@@ -101,13 +100,13 @@ class Channel:
             self._handler().take_camera(client_id, camera)
 
     async def write(self, client_id: int, rows: ClientRows) -> None:
-        """Send what the page lacks of the rows, whenever the connection is free."""
+        """Send the rows that the page lacks, whenever the connection is free."""
         self._client_id = client_id
         loop = asyncio.get_running_loop()
 
         def wake() -> None:
-            # Rows change in the session's thread. When the event is set, it will be
-            # cleared before the rows are looked at, so nothing is missed.
+            # Rows change in the session's thread. A set event means that the loop will
+            # clear it before it reads the rows, so no change is missed.
             if not self._news.is_set():
                 # The loop may have ended already.
                 with suppress(RuntimeError):
@@ -117,7 +116,7 @@ class Channel:
         versions = dict.fromkeys(rows.sent, 0)
         try:
             while True:
-                # Cleared first: what changes from here on is sent in the next round.
+                # Cleared first: the next round sends later changes.
                 self._news.clear()
                 pings, self._pings = self._pings, 0
                 for store, version in versions.items():

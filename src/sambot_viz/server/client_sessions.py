@@ -1,4 +1,4 @@
-"""Gives each client its session: that of all, one of its own, or a private copy."""
+"""Gives each client its session: the shared one, a private one or a private copy."""
 
 from __future__ import annotations
 
@@ -33,15 +33,15 @@ if TYPE_CHECKING:
 
 
 class ClientSessions:
-    """The clients of a server: where each one's edits go, and what it sees.
+    """The clients of a server: the session that each one sees and edits.
 
     Args:
-        server: whose clients they are.
-        sessions: what they see.
-        files: opens and follows .rviz files for the shared session; None leaves Open
-            and Save out.
-        ask_page: makes a page of what is seen; None leaves that out.
-        recordings: opens others than those that are shown; None leaves that out.
+        server: server of the clients.
+        sessions: sessions of the server.
+        files: opens and follows .rviz files for the shared session; None hides Open
+            and Save.
+        ask_page: exports the visible state as a page; None hides the export.
+        recordings: opens other recordings than the shown ones; None hides that.
         on_joined: called when a client has its rows, in any thread.
     """
 
@@ -64,20 +64,20 @@ class ClientSessions:
         self._joined = threading.Condition()
 
     def open_shared(self) -> None:
-        """Open the session of all clients.
+        """Open the shared session.
 
         Raises:
-            FrameError: static transforms that form a ring.
+            FrameError: the static transforms form a ring.
         """
         place = self._sessions.add_place(None)
         place.session = self._sessions.open(self._server, place.worker)
         place.session.roles.end_connection = self._end_connection
 
     def show_panels(self) -> None:
-        """Add the panels to the shared session, unless it has them or is to have none.
+        """Add the panels to the shared session, unless it has or needs none.
 
-        Call it after `show_robot`: a browser draws what it receives in order, and the
-        panels take it longer than the robot.
+        Call it after `show_robot`: browsers draw in the order of arrival, and panels
+        take longer than the robot.
         """
         place = self._sessions.shared_place
         if place is not None and place.session is not None:
@@ -85,12 +85,12 @@ class ClientSessions:
 
     def _add_panels(self, place: SessionPlace, session: Session) -> None:
         options = self._options
-        # A model that is being read may change the displays while panels are made.
+        # A model in loading may change the displays while the panels are created.
         with session.lock:
             if options.panels and place.window is None:
-                # Clients with their own session do not use the server's disk.
+                # Clients with a private session do not use the server's disk.
                 shared = place is self._sessions.shared_place
-                # Students use one server, whose disk and links are the teacher's.
+                # Students share one server, whose disk and links belong to the teacher.
                 at_home = shared and not options.in_class
                 sessions, recordings = self._sessions, self._recordings
                 edits, text = sessions.edits if shared else None, None
@@ -119,7 +119,7 @@ class ClientSessions:
         self._on_joined()
 
     def _lesson(self, session: Session, text: ModelText | None) -> ShownLesson | None:
-        """Return the lesson of the shared session; its student is one."""
+        """Return the lesson of the shared session, which has a single student."""
         study = self._options.study
         if study is None:
             return None
@@ -129,13 +129,13 @@ class ClientSessions:
         )
 
     def take_edit(self, client_id: int, edit: object) -> None:
-        """Give an edit of a client to the window of its session."""
+        """Pass an edit of a client to the window of its session."""
         window = self._window_of(client_id)
         if window is not None:
             window.receive(client_id, edit)
 
     def take_camera(self, client_id: int, report: CameraReport) -> None:
-        """Give the camera of a page to its client; the last of those that wait."""
+        """Pass a page's camera to its client; drop older reports that still wait."""
         place = self._sessions.place_of(client_id)
         camera = reported(
             np.array(report.position),
@@ -149,7 +149,7 @@ class ClientSessions:
             place.worker.post(take, latest_of=CameraReport, client=client_id)
 
     def rows_of(self, client_id: int) -> ClientRows | None:
-        """Return what a client sees beside the scene; None when it has none yet."""
+        """Return the rows of a client; None before it has any."""
         place = self._sessions.place_of(client_id)
         if place is None or place.session is None:
             return None
@@ -161,12 +161,12 @@ class ClientSessions:
         return ClientRows((), (client.view.shown,))
 
     def may_edit(self, client_id: int) -> bool:
-        """Return whether a client may use the widgets of a program, which all have."""
+        """Return whether a client may set a program's widgets, which all see."""
         shared = self._sessions.shared
         return shared is None or shared.roles.may_edit(client_id)
 
     def behind(self, client_id: int, action: Callable[[], None]) -> None:
-        """Run an action behind what a client has caused in its session."""
+        """Run an action after all effects of a client's messages in its session."""
         place = self._sessions.place_of(client_id)
         action() if place is None else place.worker.post(action, client=client_id)
 
@@ -175,7 +175,7 @@ class ClientSessions:
         return None if place is None else place.window
 
     def _end_connection(self, client_id: int) -> None:
-        """Close the page of a client, which is not to come back by itself."""
+        """Close the page of a client, and keep it from reconnecting."""
 
         def close() -> None:
             with suppress(KeyError):
@@ -189,23 +189,23 @@ class ClientSessions:
         try:
             connection = viser_private.connection_of(self._server, client_id)
         except KeyError:
-            # It has left already.
+            # The client has already left.
             return ClientContext()
         return cast(Connection, connection).context
 
     def has_copy(self, client_id: int) -> bool:
-        """Return whether a client sees a copy, so nothing of the shared session."""
+        """Return whether a client sees a copy, and so nothing of the shared session."""
         return self._sessions.shared is not None and self._context(client_id).copy
 
     def wait_for_page(self, ticket: str, timeout: float) -> viser.ClientHandle:
-        """Return the client of a page, as soon as it is there.
+        """Wait for the client of a page, and return it.
 
         Args:
-            ticket: which page (see `ClientContext`).
-            timeout: how long to wait [s].
+            ticket: ticket of the page (see `ClientContext`).
+            timeout: longest wait [s].
 
         Raises:
-            ServerError: it did not come in time.
+            ServerError: the client did not come in time.
         """
 
         def find() -> viser.ClientHandle | None:
@@ -222,7 +222,7 @@ class ClientSessions:
         return found
 
     async def join(self, client: viser.ClientHandle) -> None:
-        """Give a client that has come its session."""
+        """Give a new client its session."""
         viser_private.allow_late_messages(client)
         shared, context = self._sessions.shared, self._context(client.client_id)
         if shared is not None and not context.copy:
@@ -239,7 +239,7 @@ class ClientSessions:
         if shared is None:
             place.worker.post(open_private)
         else:
-            # Copied under the lock of all, and drawn in the thread of one.
+            # The shared session's lock covers the copying; the client's thread draws.
             shared.worker.post(
                 lambda: place.worker.post(partial(open_private, shared.copy())),
                 client=client.client_id,
@@ -266,7 +266,7 @@ class ClientSessions:
         place: SessionPlace,
         copy: SessionCopy | None = None,
     ) -> None:
-        """Draw the session of one client; its worker runs this and has its lock."""
+        """Draw a private session; its worker calls this with its lock held."""
         if self._has_left(client):
             return
         session = self._sessions.open(client, place.worker, copy)
@@ -276,24 +276,25 @@ class ClientSessions:
         self._count_copies()
 
     def _count_copies(self) -> None:
-        """Tell those who share the session how many have a copy of it."""
+        """Show users of the shared session how many private copies exist."""
         shared, sessions = self._sessions.shared, self._sessions
         if shared is not None:
             shared.worker.post(lambda: shared.roles.count_copies(sessions.copies))
 
     def _has_left(self, client: viser.ClientHandle) -> bool:
-        """Tell if a client has gone before its turn: to let it in would be for nobody.
+        """Return whether a client has left before its turn to join.
 
-        `leave` is posted after viser has forgotten it, so behind who is let in.
+        `leave` is posted after viser has forgotten the client, so it runs after the
+        joins of other clients.
         """
         return client.client_id not in self._server.get_clients()
 
     async def leave(self, client: viser.ClientHandle) -> None:
-        """Take a client that has gone out of its session; its own one ends."""
+        """Remove a client that has left from its session; end its private session."""
         place = self._sessions.own_place(client.client_id)
         if place is not None:
-            # Behind one that opens at the moment: this must not wait on the loop.
-            # Behind what it has sent.
+            # Closing waits for a session that is opening, which the loop must not do,
+            # and for all that the client has sent.
             close = partial(self._close_private, client.client_id, place)
             place.worker.post(close, client=client.client_id)
         elif (shared := self._sessions.shared) is not None:

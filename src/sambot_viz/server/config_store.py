@@ -21,21 +21,21 @@ _MANAGER = "Visualization Manager"
 
 
 class ConfigStore:
-    """The .rviz document of the server: one for all browsers, or a copy for each.
+    """The server's .rviz document: one for all browsers, or a copy for each.
 
     Args:
-        document: as it was read, with the options of the command line applied.
-        shared: whether all browsers have this document, or each a copy.
-        prepare: applies the options of the command line to a document that was read.
-        file: where it was read from; None when no file is to be followed.
+        document: document with the options of the command line applied.
+        shared: whether all browsers share this document instead of getting copies.
+        prepare: applies the options of the command line to a document.
+        file: file of the document; None to follow no file.
 
     Attributes:
-        current: the document that is shown, as it was read last.
-        file: the file that is shown, and followed.
-        trusted: whether the file that is shown is that of the command line, and no
-            browser has written it.
-        view: the current view that it had when it was read.
-        on_open: called after another file was opened.
+        current: the shown document, as last read.
+        file: the file that is shown and followed.
+        trusted: whether the shown file is the one from the command line, unchanged by
+            browsers.
+        view: the current view in the file, as last read.
+        on_open: called after a user has opened another file.
         on_save: called after the page has saved the document.
     """
 
@@ -57,14 +57,14 @@ class ConfigStore:
         self.on_save: list[Callable[[], object]] = []
 
     def __call__(self) -> RvizConfig:
-        """The document for one more session."""
+        """Return the document for one more session."""
         return self.current if self._shared else self.current.copy()
 
     def read(self, file: Path) -> RvizConfig:
         """Read a file, without the options of the command line.
 
         Raises:
-            ConfigError: it cannot be read, or is not a .rviz document.
+            ConfigError: the file cannot be read, or is not a .rviz document.
         """
         if reload_problems.is_pipe(file):
             problem = reload_problems.unreadable("config-unreadable", file)
@@ -72,10 +72,10 @@ class ConfigStore:
         return load_config(file)
 
     def replace(self, file: Path, document: RvizConfig) -> bool:
-        """Take what was read again from the file that is shown.
+        """Take the newly read document of the shown file.
 
         Returns:
-            False when another file was opened meanwhile.
+            False when a user has opened another file meanwhile.
         """
         self._prepare(document)
         with self._lock:
@@ -85,12 +85,12 @@ class ConfigStore:
         return True
 
     def begin_again(self, shown: RvizConfig, document: RvizConfig) -> None:
-        """Take the config that comes with the program, made for another recording.
+        """Take the bundled config, adapted to another recording.
 
         Args:
-            shown: what it takes the place of; another one was opened meanwhile if it
-                is no longer the current one.
-            document: the config.
+            shown: config to replace; the call does nothing if it is no longer the
+                current one, because a user has opened another.
+            document: the new config.
         """
         with self._lock:
             if self.current is shown:
@@ -102,7 +102,7 @@ class ConfigStore:
         """Show another file in the session of all browsers.
 
         Raises:
-            ConfigError: it cannot be read, or is not a .rviz document.
+            ConfigError: the file cannot be read, or is not a .rviz document.
         """
         document = self.read(path)
         fit_own_config(document, robot)
@@ -116,7 +116,7 @@ class ConfigStore:
             listener()
 
     def saved(self, path: Path) -> None:
-        """The page has saved the document into this file: follow it from now on."""
+        """Follow this file, into which the page has saved the document."""
         with self._lock:
             self.file, self.trusted = path, False
         for listener in self.on_save:
@@ -132,14 +132,14 @@ def _view_of(document: RvizConfig) -> Plain:
 
 @dataclass(frozen=True, slots=True)
 class Sources:
-    """The files of a server, and how they are read and shown.
+    """The files of a server, and the functions that read and show them.
 
     Attributes:
-        model: the model file; None follows that of the robot that is shown.
+        model: the model file; None follows the file of the shown robot.
         load: reads a model from its file.
         show: shows a robot in all sessions.
-        configs: where sessions take their config from, and which file it is in.
-        opened: when the files were opened first [ns].
+        configs: gives sessions their config, and knows its file.
+        opened: time when the files were first opened [ns].
     """
 
     model: Path | None

@@ -1,6 +1,6 @@
-"""The handshake of each connection: checked, answered with a file, or given a context.
+"""The handshake of each connection: check it, answer with a file, or give it a context.
 
-viser's server passes every request through here before it looks at it.
+viser's server passes every request through this module before it reads it.
 """
 
 from __future__ import annotations
@@ -36,20 +36,20 @@ _VERSION_MISMATCH = 1002
 COPY = "/copy"
 """Below this path, a page shows a private copy of the shared robot."""
 HELP = "/help"
-"""Below this path is what the codes of problems mean, as in docs/problems.md."""
+"""Below this path are the explanations of problem codes, as in docs/problems.md."""
 METRICS = "/metrics"
-"""Where a program that watches many servers asks this one for its counts."""
+"""Path from which a monitoring program reads the counts of this server."""
 AnswerMetrics = Callable[[Request], Awaitable[Response]]
 _TICKET = re.compile(r"[A-Za-z0-9_-]{16,64}")
 
 
 def without_base(path: str, base: str) -> str:
-    """The path of a request below the base path.
+    """Return the path of a request below the base path.
 
-    Some proxies take the base path away, and some do not.
+    Some proxies remove the base path, and some do not.
 
     Args:
-        path: with its query: "/robot/?dark".
+        path: path with its query: "/robot/?dark".
         base: "/robot", or "/".
     """
     rest = path.removeprefix(base)
@@ -59,7 +59,7 @@ def without_base(path: str, base: str) -> str:
 
 
 def without_copy(path: str) -> tuple[str, bool]:
-    """Return the path of a request without `COPY`, and whether that was in it."""
+    """Return the path of a request without `COPY`, and whether it contained `COPY`."""
     where, mark, query = path.partition("?")
     if where != COPY and not where.startswith(f"{COPY}/"):
         return path, False
@@ -67,13 +67,13 @@ def without_copy(path: str) -> tuple[str, bool]:
 
 
 class Answers:
-    """What is answered beside the page, and what is counted of all that goes out.
+    """Answers to requests for anything but the page, and the counts of all traffic.
 
     Attributes:
-        metrics: answers a request for the counts; None while there is nothing to
-            count, or nobody asked for it.
-        state: of the server; called on the event loop for each request.
-        traffic: what goes out.
+        metrics: answers a request for the counts; None where they are not enabled or
+            there is nothing to count.
+        state: returns the state of the server; called on the event loop per request.
+        traffic: counts of outgoing messages.
     """
 
     def __init__(self) -> None:
@@ -82,7 +82,7 @@ class Answers:
         self.traffic = Traffic()
 
     def of(self, request: Request) -> Awaitable[Response] | None:
-        """Return the answer to a request; None for all that ask for the page."""
+        """Return the answer to a request; None for requests for the page."""
         path = without_copy(request.path)[0].partition("?")[0]
         if path.startswith(f"{HELP}/"):
             return _help(path.removeprefix(f"{HELP}/"))
@@ -92,8 +92,8 @@ class Answers:
 
 
 async def _help(code: str) -> Response:
-    """Return the page of a code, or that of all codes for ""."""
-    # No page needs it before a user asks.
+    """Return the page of a code, or the index of all codes for ""."""
+    # Imported late: no page needs it before a user asks.
     from sambot_viz.explanations import as_html, index_html
 
     try:
@@ -111,23 +111,23 @@ def checked(
     answers: Answers,
     knows: Knows | None = None,
 ) -> Generator[asyncio.Event]:
-    """Check every request to a server that is started in here before viser does.
+    """Check every request to servers started in this context, before viser does.
 
-    viser gives no way to look at a request, so the function with which it starts its
-    server is replaced for the moment of the start. The port listens before that start
-    is over: what clients send meanwhile is not read.
+    viser has no hook for requests, so this context replaces the function that starts
+    viser's server. The port listens before the start is complete, but messages that
+    clients send until then stay unread.
 
     Args:
-        options: where the server listens, and for whom.
-        listening: a socket of the file system that listens in place of a port, or None.
-        largest_message: a connection that sends a longer one is closed [bytes].
+        options: address to listen on, and who may connect.
+        listening: a file-system socket that listens in place of a port, or None.
+        largest_message: longest message; a longer one closes the connection [bytes].
         channels: serves the channels of the pages.
-        answers: to requests for something else than the page.
+        answers: answers requests for anything but the page.
         knows: as for `TokenCheck`.
 
     Yields:
-        The event after which clients are given to viser, to be set on the event loop
-        of the server when the inbound filter is there.
+        An event that releases clients to viser; set it on the server's event loop
+        once the inbound filter is in place.
     """
     ready = asyncio.Event()
     module = websockets.asyncio.server
@@ -170,7 +170,7 @@ def checked(
                 if response is None and answer:
                     response = answer(connection, request)
             except (OSError, ValueError):
-                # The file name is too long for the system, or contains a NUL.
+                # The file name is too long for the system, or contains NUL.
                 return access.plain(http.HTTPStatus.NOT_FOUND, "No such page.")
             if page_files.is_websocket(request):
                 return response or channels.claim(connection)
@@ -186,11 +186,11 @@ def checked(
                 await channels.serve(cast(Connection, connection))
             elif connection.subprotocol == page_files.VISER_PROTOCOL:
                 await ready.wait()
-                # One that has left meanwhile has nothing that could be prepared.
+                # A connection that has closed meanwhile cannot be prepared.
                 if connection.state is State.OPEN:
                     await handler(connection)
             else:
-                # viser would write a line on the terminal for every attempt.
+                # viser would print a line on the terminal for each attempt.
                 await connection.close(_VERSION_MISMATCH, "Version mismatch.")
 
         select_viser = settings["select_subprotocol"]
@@ -202,7 +202,7 @@ def checked(
         settings["select_subprotocol"] = select
         settings["process_request"] = check
         settings["create_connection"] = partial(Connection, limiter, answers.traffic)
-        # Also for what is sent before the filter reads it.
+        # This limit also applies to messages that come before the filter reads.
         settings["max_size"] = largest_message
         if listening is not None:
             return original(handle, unix=True, sock=listening, **settings)
@@ -218,7 +218,7 @@ def checked(
 def _context(
     request: Request, presenter: bool, copy: bool, options: Options
 ) -> ClientContext:
-    """Return what a request says of its client."""
+    """Read the context of a client from its request."""
     query = parse_qs(request.path.partition("?")[2])
     ticket = query.get("ticket", [""])[-1]
     offered = ",".join(request.headers.get_all("Sec-WebSocket-Protocol"))
@@ -227,23 +227,23 @@ def _context(
     logins: list[str] = []
     if options.trust_user_header is not None:
         logins = request.headers.get_all(options.trust_user_header)
-    # Of two, one may be the client's own.
+    # With two headers, one may come from the client itself.
     login = logins[0].strip() if len(logins) == 1 else ""
-    # Letters of all scripts are UTF-8 in a header.
+    # Headers carry letters of all scripts as UTF-8.
     login = login.encode(errors="surrogateescape").decode(errors="replace")
     return ClientContext(presenter, copy, known, channel, login)
 
 
 def _pages(connection: Connection) -> int:
-    """Return how many pages are open: their channels are not counted."""
+    """Return the number of open pages, without their channels."""
     open_now = cast("set[Connection]", connection.server.connections)
     return sum(not one.context.channel for one in open_now)
 
 
 def _folder(request: Request, base: str) -> str:
-    """Where a page is that is asked for without the "/" at its end; "" for others.
+    """Return the address of a page requested without its final "/"; "" for others.
 
-    The page names its files relative to the folder it is in.
+    The page names its files relative to its folder.
     """
     path, mark, query = request.path.partition("?")
     lacks_slash = path == base != "/" or without_base(path, base) == COPY

@@ -1,4 +1,4 @@
-"""The link that is given to viewers, from the page."""
+"""The link for viewers that the page shows."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ def invite(options: Options, opened_at: str) -> Invitation:
     """Return the link for viewers, also as a QR code.
 
     Args:
-        options: where the server listens, and its secrets.
-        opened_at: the address under which a page was opened, as its browser shows it;
-            behind a proxy the server may not know it.
+        options: address to listen on, and the secrets.
+        opened_at: address at which the user has opened the page; only the browser
+            knows it when a proxy is in between.
     """
     base, here = opened_at, urlsplit(opened_at)
     local = only_this_machine(here.hostname or "")
     public = public_url(options)
     if local and public is not None:
         return _as_code(public, False)
-    # Opened beside the server, it has a name that means another machine elsewhere.
+    # A name that is local to this machine would lead viewers to their own.
     if local and not only_this_machine(options.host):
         host = reachable_at(options.host)
         name = f"[{host}]" if ":" in host else host

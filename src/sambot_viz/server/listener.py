@@ -1,7 +1,7 @@
-"""Open the port: all that must happen before a page can be opened, and no more.
+"""Open the port: only the steps that a browser needs before it can open a page.
 
-Nothing but viser is imported here, so that the address is there as soon as viser
-itself can have it; the rest of the program is imported while a browser loads the page.
+This module imports only viser, so that the address is available as early as viser
+allows. The rest of the program is imported while a browser loads the page.
 """
 
 from __future__ import annotations
@@ -31,20 +31,20 @@ from sambot_viz.server.protection.token_check import Knows
 from sambot_viz.server.tickets import Channels
 
 _OF_A_PROBE: int = getattr(socket, "SO_EXCLUSIVEADDRUSE", socket.SO_REUSEADDR)
-"""Of a socket that asks if a port is free. SO_REUSEADDR does without the port's pause
-after a program; on Windows it would let two programs have one port."""
+"""Option of a socket that probes for a free port. SO_REUSEADDR skips the wait after a
+program has released the port; on Windows it would let two programs share one port."""
 _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
-"""Addresses that mean all networks, and one of them that a browser can open."""
+"""Addresses that mean all networks → one that a browser can open."""
 
 
 class Listener:
-    """A viser server that listens, and whose clients pass the inbound filter.
+    """A listening viser server whose clients pass the inbound filter.
 
     Args:
-        server: the viser server; it has no client yet.
+        server: the viser server, still without clients.
         options: the address, the base path, and the secrets of the links.
-        channels: the channels of the pages.
-        answers: what it answers beside the page.
+        channels: channels of the pages.
+        answers: answers to requests for anything but the page.
 
     Attributes:
         viser: the viser server.
@@ -68,7 +68,7 @@ class Listener:
         viser_private.on_connection(server, self._prepare)
 
     def _prepare(self, client_id: int, connection: ServerConnection) -> None:
-        """Prepare the connection of a client before anything is read or sent."""
+        """Prepare the connection of a client before any message passes."""
         own = cast(Connection, connection)
         own.client_id = client_id
         own.writer.prepare()
@@ -79,34 +79,34 @@ class Listener:
         ).read
 
     def give(self, handler: ClientHandler) -> None:
-        """Give what the clients edit to a program, which has the rows of the pages."""
+        """Set the handler of edits, which also provides the rows of the pages."""
         self.channels.handler = handler
 
     def tell_joined(self) -> None:
-        """Send rows to the clients that have some now; in any thread."""
-        # A loop that has ended already has no clients.
+        """Send rows to the clients that have new ones; call it in any thread."""
+        # A loop that has ended has no clients left.
         with suppress(RuntimeError):
             loop = self.viser.get_event_loop()
             loop.call_soon_threadsafe(self.channels.tell_joined)
 
     async def tell_stop(self) -> None:
-        """Tell all pages that the server stops; on the loop."""
+        """Notify all pages that the server stops; call it on the event loop."""
         await self.channels.tell_stop()
 
     def url(self, host: str = "", *, presenter: bool = False) -> str:
         """Return the address to open in a browser: "http://127.0.0.1:8080".
 
-        A socket in the file system, which no browser can open, is named "unix:PATH".
+        A socket in the file system, which browsers cannot open, becomes "unix:PATH".
 
         Args:
-            host: the name to reach it by, instead of the address it listens on.
-            presenter: the presenter's link, instead of that for everyone.
+            host: host name in the address; "" for the address it listens on.
+            presenter: return the presenter's link instead of the one for everyone.
         """
         port = self.viser.get_port()
         return page_url(self._options, host, port, presenter=presenter)
 
     def __enter__(self) -> Listener:
-        """Return this listener, which the end of the block closes."""
+        """Return this listener; the end of the block closes it."""
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -114,7 +114,7 @@ class Listener:
         self.close()
 
     def close(self) -> None:
-        """Stop the server and print nothing; a second call does nothing."""
+        """Stop the server and print nothing; further calls do nothing."""
         with viser_private.without_banner():
             self.viser.stop()
         path, self._socket_file = self._socket_file, None
@@ -129,11 +129,11 @@ def page_url(
     """Return the address to open in a browser, or the socket in the file system.
 
     Args:
-        options: where the program listens, and its secrets.
-        host: the name to reach it by; "" for the address it listens on.
-        port: on which it listens.
-        below: where the page is below the base path.
-        presenter: the presenter's link, instead of that for everyone.
+        options: address to listen on, and the secrets.
+        host: host name in the address; "" for the address it listens on.
+        port: port it listens on.
+        below: path of the page below the base path.
+        presenter: return the presenter's link instead of the one for everyone.
     """
     if options.unix_socket is not None:
         return f"unix:{options.unix_socket}"
@@ -147,10 +147,10 @@ def page_url(
 def with_secret(
     base: str, options: Options, below: str = "", *, presenter: bool = False
 ) -> str:
-    """Return the address of a page with its secret, under a name that says whose it is.
+    """Return the address of a page with its secret, in a parameter that names the role.
 
-    Two links that look alike end up in the wrong chat. What is below has no slash at
-    its end: so a browser sends the cookie of the answer to all that is beside it.
+    Users would confuse two links that look alike. `below` has no slash at its end, so
+    that a browser sends the cookie of the answer to the neighbouring paths too.
     """
     secret = options.presenter if presenter else options.token
     if secret is None:
@@ -163,12 +163,12 @@ def with_secret(
 def public_url(
     options: Options, below: str = "", *, presenter: bool = False
 ) -> str | None:
-    """Return the link at the first allowed origin, where a proxy shows the page.
+    """Return the link at the first allowed origin, where a proxy serves the page.
 
     The arguments are those of `page_url`.
 
     Returns:
-        None when no origin was allowed.
+        None when no origin is allowed.
     """
     if not options.allowed_origins:
         return None
@@ -178,10 +178,10 @@ def public_url(
 
 
 def reachable_at(host: str) -> str:
-    """Return the address by which other machines reach a server that listens on `host`.
+    """Return the address at which other machines reach a server listening on `host`.
 
-    For a server on all networks that is the address of the one through which this
-    machine reaches others; nothing is sent to find it out.
+    For a server on all networks, this is the address of the interface that leads to
+    other machines. Finding it sends no packet.
     """
     if host not in _ANYWHERE:
         return host
@@ -199,17 +199,17 @@ def reachable_at(host: str) -> str:
 
 
 def listen(options: Options, knows: Knows | None = None) -> Listener:
-    """Start a viser server on exactly the address that the options name.
+    """Start a viser server on exactly the address in the options.
 
-    viser itself takes the next free port without a message, and tries forever on an
+    viser itself takes the next free port without a message, and retries forever on an
     address that this machine does not have.
 
     Args:
         options: the address, and who may use the server.
-        knows: whom it lets in without the token too (see `TokenCheck`).
+        knows: recognises users who need no token (see `TokenCheck`).
 
     Raises:
-        ServerError: the address cannot be listened on, with what to do about it.
+        ServerError: the address cannot be listened on; the message gives a remedy.
         UsageError: a package of an extra is missing.
     """
     if options.metrics:
@@ -219,7 +219,7 @@ def listen(options: Options, knows: Knows | None = None) -> Listener:
     path = None if options.unix_socket is None else os.fspath(options.unix_socket)
     listening: socket.socket | None = bound_socket(options)
     if path is None:
-        # It was tried for the message; viser makes its own.
+        # The probe only provides the error message; viser opens its own socket.
         listening.close()
         listening = None
     viser_private.quiet_websockets()
@@ -233,8 +233,8 @@ def listen(options: Options, knows: Knows | None = None) -> Listener:
     with viser_private.without_banner(), checked as ready:
         server = viser.ViserServer(host=host, port=port, verbose=False)
     listener = Listener(server, options, channels, answers)
-    # Clients that were quicker than this wait for it; also those of a server that is
-    # closed at once, which would wait for them.
+    # Clients that connect earlier wait for this event. It is also set for a server that
+    # closes at once, because closing waits for those clients.
     server.get_event_loop().call_soon_threadsafe(ready.set)
     if path is None and port not in (0, server.get_port()):
         listener.close()
@@ -243,10 +243,10 @@ def listen(options: Options, knows: Knows | None = None) -> Listener:
 
 
 def bound_socket(options: Options) -> socket.socket:
-    """Return a socket at exactly the address that the options name.
+    """Return a socket at exactly the address in the options.
 
     Raises:
-        ServerError: the address cannot be listened on, with what to do about it.
+        ServerError: the address cannot be listened on; the message gives a remedy.
     """
     if options.unix_socket is not None:
         return _bind_in_file_system(os.fspath(options.unix_socket))
@@ -282,7 +282,7 @@ def _bind_in_file_system(path: str) -> socket.socket:
     """Make a socket that only programs of the same user can open.
 
     Raises:
-        ServerError: it cannot be made.
+        ServerError: the socket cannot be created.
     """
     if not hasattr(socket, "AF_UNIX"):
         raise ServerError("this system has no sockets in the file system; give a port")
@@ -303,7 +303,7 @@ def _bind_in_file_system(path: str) -> socket.socket:
 
 
 def _remove_left_over(path: str) -> None:
-    """Remove the socket of a program that was killed."""
+    """Remove the socket that a killed program has left."""
     with suppress(FileNotFoundError):
         if stat.S_ISSOCK(os.stat(path).st_mode):
             with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:

@@ -1,4 +1,4 @@
-"""The model of a live robot: its description, with the meshes that its source has."""
+"""The model of a live robot: its description, and meshes from its source."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from sambot_viz.topics.live_files import fetch_files
 from sambot_viz.topics.source_robot import SourceRobot
 
 FRAMES_WITHIN = 2.0
-"""The fixed frame is chosen when transforms hold the robot, or after this time [s]."""
+"""Latest time to choose the fixed frame, if no transforms hold the robot before [s]."""
 
 Load = Callable[[OpenedModel, Path], Robot]
-"""Load a model, with a folder of packages of its own."""
+"""Load a model with a separate folder of packages."""
 
 
 class LiveModel:
-    """Loads the robot of a live source whenever it is described.
+    """Loads the robot of a live source whenever a description arrives.
 
-    The files that the description names are asked for once; what the source does not
-    hand out is looked for among the packages of this computer.
+    It requests the files in the description once. Files that the source does not
+    provide are searched for among the packages of this computer.
 
     Args:
         live: the robot.
-        load: loads it; called in a thread.
-        show: shows it with the frame of its root link, the one at the top, and
-            problems of its files; None where another robot was opened, and only
-            displays ask for this one.
-        refuse: shows why it cannot be shown.
+        load: loads the model; called in a thread.
+        show: shows the model with the frame of its root link, the top frame, and
+            problems of its files; None where the user opened another robot, and only
+            displays request this one.
+        refuse: shows why the model cannot be shown.
     """
 
     def __init__(
@@ -49,14 +49,14 @@ class LiveModel:
         self._folder = tempfile.TemporaryDirectory(
             prefix="sambot-viz-live-", ignore_cleanup_errors=True
         )
-        # One after the other: the last description is the one that is shown.
+        # One load at a time, so that the last description is the shown one.
         self._turn = threading.Lock()
         self._latest = ""
         if show is not None:
             live.on_description = self._take
 
     def load(self, text: str, label: str) -> Robot:
-        """Load what a topic has described, for a display that shows it.
+        """Load the description on a topic, for a display that shows it.
 
         Raises:
             RobotError: the model cannot be shown.

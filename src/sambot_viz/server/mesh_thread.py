@@ -11,28 +11,28 @@ from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import MeshCache
 
 REPORT_PERIOD = 0.1
-"""What was read is handed over this often [s] at most; it costs every browser."""
+"""Shortest time between two deliveries [s]; each delivery costs every browser."""
 
 LARGE = 500_000
-"""Before a file above this size is read, the others are handed over [B]."""
+"""Before the thread reads a file above this size, it delivers the others [B]."""
 
 
 class MeshListener(Protocol):
     """A session that waits for files."""
 
     def arrived(self, assets: frozenset[Asset]) -> None:
-        """These files have been read; called in the reading thread."""
+        """Handle files that the thread has read; called in the reading thread."""
 
 
 class MeshThread:
-    """Reads files one after the other, in the order in which they are asked for.
+    """Reads files one at a time, in the order of the requests.
 
-    There is one thread for all sessions: reading is mostly Python's own work, so a
-    second thread would only take time from the first, and from the sliders.
+    All sessions share one thread: reading is mostly work in Python, so a second thread
+    would only take time from the first one and from the sliders.
 
     Args:
-        cache: where the content goes.
-        on_error: called with what a listener raised; the thread goes on.
+        cache: stores the contents.
+        on_error: called with an exception of a listener; the thread continues.
     """
 
     def __init__(self, cache: MeshCache, on_error: Callable[[Exception], None]) -> None:
@@ -60,7 +60,7 @@ class MeshThread:
             self._changed.notify_all()
 
     def close(self) -> None:
-        """Read no further file and wait for a listener that is running."""
+        """Stop reading, and wait for a running listener."""
         with self._changed:
             self._closed = True
             self._wanted.clear()
@@ -92,11 +92,11 @@ class MeshThread:
                 try:
                     listener.arrived(frozenset(assets))
                 except Exception as error:
-                    # One session that fails must not end reading for all others.
+                    # A failing session must not stop the reading for the others.
                     self._on_error(error)
 
     def _next(self, wait: bool) -> Asset | None:
-        """The file to read next; None when there is none, or after `close`."""
+        """Return the next file to read; None without one, or after `close`."""
         with self._changed:
             if wait:
                 self._changed.wait_for(lambda: self._wanted or self._closed)
@@ -104,7 +104,7 @@ class MeshThread:
 
 
 def _is_large(asset: Asset) -> bool:
-    """Whether what is read already should not wait for this file."""
+    """Return whether the files read so far should not wait for this one."""
     try:
         return asset.path.stat().st_size > LARGE
     except (OSError, ValueError):

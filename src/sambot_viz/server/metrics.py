@@ -1,7 +1,7 @@
-"""The counts of a server, as Prometheus asks for them.
+"""The counts of a server, in the format of Prometheus.
 
-They hold no name of a person and no token: who may read them sees how busy a server is,
-not who uses it. Problems are counted by code and sources by their names.
+They contain no names of people and no tokens: a reader learns how busy a server is, not
+who uses it. Problems are counted by code, sources by name.
 """
 
 from __future__ import annotations
@@ -52,16 +52,16 @@ _OF_SOURCES: Iterable[tuple[str, str, bool, Callable[[SourceStatus], float | Non
         lambda s: s.lag_s,
     ),
 )
-"""Name, help, whether it only grows, and where it comes from; None leaves it out."""
+"""Name, help, whether it only grows, and the value's source; None omits it."""
 
 
 class Metrics:
-    """Collects the counts of a server whenever somebody asks for them.
+    """Collects the counts of a server at each request.
 
     Args:
-        sessions: what the browsers see.
-        traffic: what goes out to them.
-        moved_by: the robot of the sources; None without one.
+        sessions: sessions of the server.
+        traffic: outgoing messages.
+        moved_by: robot of the sources; None without sources.
     """
 
     def __init__(
@@ -77,19 +77,19 @@ class Metrics:
         ProcessCollector(registry=self._registry)
 
     async def answer(self, request: Request) -> Response:
-        """Return the counts, in the format that a request asks for."""
+        """Return the counts in the requested format."""
         from prometheus_client.exposition import choose_encoder
 
         accepted = ",".join(request.headers.get_all("Accept"))
         write, kind = choose_encoder(accepted)
-        # A session that computes has its lock.
+        # A busy session holds its lock.
         content = await asyncio.to_thread(write, self._registry)
         headers = Headers({"Content-Type": kind, "Cache-Control": "no-store"})
         headers["Content-Length"] = str(len(content))
         return Response(http.HTTPStatus.OK, "OK", headers, content)
 
     def collect(self) -> Iterator[Metric]:
-        """Give all counts; the library calls this.
+        """Yield all counts; the library calls this.
 
         Returns:
             One metric after the other.
@@ -152,7 +152,7 @@ class Metrics:
 
 
 def _parts(moved_by: SourceRobot | None) -> Iterator[tuple[str, SourceStatus]]:
-    """Give the live sources, by their names."""
+    """Yield the live sources, by name."""
     if moved_by is None:
         return
     source: Source = moved_by.source

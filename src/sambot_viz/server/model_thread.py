@@ -1,4 +1,4 @@
-"""The background thread that reads the models named by displays."""
+"""The background thread that reads models for displays."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from sambot_viz.session.background import Background
 
 
 class ModelThread:
-    """Reads one model after the other in a thread that lives while there is work.
+    """Reads one model at a time, in a thread that lives while there is work.
 
-    Expanding a xacro file may take 20 seconds. Of several requests of one display only
+    Expanding a xacro file may take 20 seconds. Of several requests of one display, only
     the latest is carried out.
 
     Args:
         load: reads a model; its second argument is False for a file that a browser
-            named, which must be expanded without running its code.
-        package_path: the folders in which packages are looked for.
-        load_described: reads what a topic has sent.
+            chose, whose code must not run.
+        package_path: folders to search for packages.
+        load_described: reads a description from a topic.
     """
 
     def __init__(
@@ -53,7 +53,7 @@ class ModelThread:
         self._background.do(request.owner, work)
 
     def wait(self, timeout: float) -> bool:
-        """Wait until nothing is being read; False when that takes longer [s]."""
+        """Wait until the thread is idle; False on a timeout [s]."""
         return self._background.wait(timeout)
 
     def _result(self, request: ModelRequest) -> Robot:

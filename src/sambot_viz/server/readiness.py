@@ -1,7 +1,7 @@
-"""Whether a server answers, and whether it shows something: one word for each.
+"""The server's state in one word: whether it answers, and whether it shows content.
 
-Service managers, containers and balancers ask, without a token and under any name, so
-the answers say nothing of the robot or of people.
+Service managers, containers and load balancers ask without a token and under any name,
+so the answers contain nothing about the robot or its users.
 """
 
 from __future__ import annotations
@@ -15,18 +15,18 @@ from sambot_viz.server.connections.page_files import is_websocket
 from sambot_viz.server.protection import access
 
 ANSWERS, READY = "/healthz", "/readyz"
-"""Where it is asked whether the process answers, and whether it shows something."""
+"""Paths that report whether the process answers, and whether it shows content."""
 ServerState = Literal["waiting", "ready", "stopping"]
-"""Of a server: nothing is shown yet, something is, or nothing is from now on."""
+"""State of a server: no content yet, content, or stopping."""
 
 
 def readiness(request: Request, path: str, state: ServerState) -> Response | None:
-    """Return the answer to a question for the state; None for all other requests.
+    """Return the answer to a request for the state; None for all other requests.
 
     Args:
-        request: what was asked.
-        path: of the request below the base path, with its query.
-        state: of the server.
+        request: the request.
+        path: its path below the base path, with its query.
+        state: state of the server.
     """
     where = path.partition("?")[0]
     if where not in (ANSWERS, READY) or is_websocket(request):
@@ -39,7 +39,7 @@ def readiness(request: Request, path: str, state: ServerState) -> Response | Non
 
 
 def stopping() -> Response:
-    """Return the answer to a page that asks while the server stops."""
+    """Return the answer to a page request while the server stops."""
     sentence = "This server stops. If it is started again, the page loads by itself."
     response = access.plain(http.HTTPStatus.SERVICE_UNAVAILABLE, sentence)
     response.headers["Retry-After"] = "2"

@@ -1,4 +1,4 @@
-"""Other recordings in the place of those that are shown, by the page or a program."""
+"""Replaces the shown recordings, for the page or a program."""
 
 from __future__ import annotations
 
@@ -27,19 +27,19 @@ from sambot_viz.session.recording_files import (
 from sambot_viz.topics.source_robot import Lease, SourceRobot
 
 FirstConfig = Callable[[SourceRobot, Robot | None], RvizConfig]
-"""Makes the config that comes with the program fit sources and a robot."""
+"""Adapts the bundled config to sources and a robot."""
 _Opened = tuple[object, SourceRobot, Robot | None]
-"""What was asked for, and what moves which robot."""
+"""The request, the sources, and the robot that they move."""
 Done = Callable[[SambotVizError | None], object]
 
 
 class Recordings:
-    """Opens recordings, one after the other; one that cannot be opened changes nothing.
+    """Opens recordings, one after the other; a failure changes nothing.
 
     Args:
-        inputs: what was opened.
-        configs: the config that new sessions get.
-        first_config: makes one where no user has one.
+        inputs: the opened inputs.
+        configs: config of new sessions.
+        first_config: makes a config where no user has one.
     """
 
     def __init__(
@@ -50,15 +50,15 @@ class Recordings:
         self._configs = configs
         self._first_config = first_config
         self._turn = threading.Lock()
-        # Many private sessions may show the same.
+        # Many private sessions may show the same recording.
         self._known: WeakKeyDictionary[Lease, _Opened] = WeakKeyDictionary()
 
     def of(self, sessions: Sessions, session: Session) -> SessionRecordings:
-        """Return what a session of the server may open."""
+        """Return the recordings that a session of the server may open."""
         return SessionRecordings(self, sessions, session)
 
     def replaces_config(self, session: Session) -> bool:
-        """Return whether another recording comes with another config."""
+        """Return whether another recording brings another config."""
         return self._replaces(session.document.config)
 
     def _replaces(self, config: RvizConfig) -> bool:
@@ -70,20 +70,20 @@ class Recordings:
         """Open recordings, and show them.
 
         Args:
-            sessions: of the server.
+            sessions: sessions of the server.
             given: the recordings.
-            session: where they are shown; None is everywhere but in copies, and in what
-                opens later.
+            session: session that shows them; None for all present and future sessions
+                except copies.
 
         Raises:
-            SourceError: one of them cannot be opened; what is shown stays.
+            SourceError: a recording cannot be opened; the shown ones stay.
         """
         with self._turn:
             shown = (
                 self._configs.current if session is None else session.document.config
             )
             replaces = self._replaces(shown)
-            # A session has one later.
+            # A session has a config later.
             lease = self._opened(given, None if replaces else shown)
             _, moved_by, described = self._known[lease]
             robot = described or sessions.robot
@@ -97,7 +97,7 @@ class Recordings:
             del lease
 
     def _opened(self, given: Given, config: RvizConfig | None) -> Lease:
-        """Open recordings, unless a session shows the same, unchanged since then."""
+        """Open recordings, unless a session shows the same, unchanged files."""
         named = named_descriptions(config)
         wanted = (tuple(given), named, _stamps(given))
         for lease, opened in list(self._known.items()):
@@ -112,12 +112,12 @@ class Recordings:
         """Open a file or folder for a program.
 
         Args:
-            sessions: of the server.
-            path: where it is.
-            part: which recording it replaces; None where there is one.
+            sessions: sessions of the server.
+            path: path of the recording.
+            part: recording to replace; None where there is only one.
 
         Raises:
-            SourceError: it cannot be opened; what is shown stays.
+            SourceError: the recording cannot be opened; the shown one stays.
             UsageError: there are several recordings to replace, or none of this name.
         """
         moved_by = self._inputs.moved_by
@@ -133,8 +133,8 @@ class Recordings:
 
 
 def _stamps(given: Given) -> tuple[Stamp | None, ...]:
-    """Return what differs after a file was written."""
-    # What is on a web server notices by itself that it has changed.
+    """Return stamps that differ after a file was written."""
+    # A recording on a web server detects its own changes.
     paths = [one.path for one in given if isinstance(one.path, Path)]
     inside = (sorted(path.iterdir()) for path in paths if path.is_dir())
     return tuple(stamp(path) for path in (*paths, *chain.from_iterable(inside)))
@@ -145,12 +145,12 @@ def _listed(parts: Iterable[str]) -> str:
 
 
 class SessionRecordings:
-    """The recordings that a page of one session may open; `panels` has the contract.
+    """Recordings that pages of one session may open; `panels` defines the interface.
 
     Args:
         recordings: opens them.
-        sessions: all of the server.
-        session: where they are shown.
+        sessions: all sessions of the server.
+        session: session that shows them.
     """
 
     def __init__(
@@ -163,12 +163,12 @@ class SessionRecordings:
 
     @property
     def parts(self) -> Sequence[str]:
-        """What is shown, and can be replaced."""
+        """The shown recordings, each of which can be replaced."""
         return list(parts_of(self._given))
 
     @property
     def replaces_config(self) -> bool:
-        """Whether another recording comes with another config."""
+        """Return whether another recording brings another config."""
         return self._recordings.replaces_config(self._session)
 
     @property
@@ -177,7 +177,7 @@ class SessionRecordings:
         return () if data is None else data.moved_by.given
 
     def names(self) -> Sequence[str]:
-        """Return the names of what can be opened.
+        """Return the names of the recordings that a user can open.
 
         Raises:
             UsageError: a folder cannot be read.
@@ -185,10 +185,10 @@ class SessionRecordings:
         return self._recordings.files.names()
 
     def open(self, part: str, name: str, done: Done) -> None:
-        """Show another recording, in a thread.
+        """Show another recording, which a thread opens.
 
         Raises:
-            UsageError: there is no such part or name, or one is being opened.
+            UsageError: there is no such part or name, or another one is opening.
         """
         if self._opening:
             raise UsageError(f"{self._opening} is still being opened")

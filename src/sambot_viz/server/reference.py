@@ -1,4 +1,4 @@
-"""The model that the sessions of a server can compare theirs with."""
+"""The reference model, with which the sessions of a server compare theirs."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from sambot_viz.robot.model import Robot
 
 
 class ReferenceModel:
-    """A reference, read from its file as often as that is saved.
+    """A reference model, read again after each save of its file.
 
-    While a save has a mistake, the last model that worked stays.
+    If a save contains a mistake, the last model that worked stays.
 
     Args:
         given: the model, or its file.
         load: reads the file.
 
     Attributes:
-        name: what users call it.
-        robot: the model; None while none could be read.
-        files: those that it is read from.
-        problems: why it is not as its file says; empty when it is.
-        was_read: whether it was read once, with or without success.
+        name: name that users see.
+        robot: the model; None until a read succeeds.
+        files: files of the model.
+        problems: reasons why it differs from its file; empty if it does not.
+        was_read: whether the file was read once, with or without success.
     """
 
     def __init__(self, given: Path | Robot, load: Callable[[Path], Robot]) -> None:
@@ -36,7 +36,7 @@ class ReferenceModel:
         self.was_read = False
 
     def read(self) -> RobotError | None:
-        """Read the file; return why that failed."""
+        """Read the file; return the error if that fails."""
         self.was_read = True
         if self._path is None:
             return None
@@ -45,7 +45,7 @@ class ReferenceModel:
         except RobotError as error:
             named = (Path(p.file) for p in error.problems if p.file is not None)
             self.files |= {self._path, *error.files, *named}
-            # Others usually follow from the first.
+            # The others usually follow from the first.
             self.problems = error.problems[:1]
             return error
         self.files, self.problems = frozenset((self._path, *self.robot.files)), ()

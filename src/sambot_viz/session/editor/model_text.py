@@ -1,7 +1,7 @@
-"""The text of the model's files in one session, as its users change it.
+"""The text of the model's files in one session, as its users edit it.
 
-Each text that loads is shown; one with a mistake leaves the last robot that worked,
-with the problem beside it. Nothing is written to the disk but by `save`.
+The session shows each text that loads. After a mistake it keeps the last robot that
+worked and reports the problem beside it. Only `save` writes to the disk.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from sambot_viz.unsaved import unsaved
 
 
 class TextPlace(NamedTuple):
-    """Where something is in a file: its name, a line, and where [UTF-16 units]."""
+    """A place in a file: the file's name, a line, and an offset [UTF-16 units]."""
 
     file: str
     line: int
@@ -49,20 +49,20 @@ class ModelText:
     """The texts of the model in one session.
 
     Args:
-        files: those of the model.
-        robot: what is shown.
-        checks: look at it with these texts.
-        problems: show why a text is not shown.
-        saved: tells what other programs have saved.
-        show: shows the robot of a text, and whether that is unsaved.
-        change: of the session.
-        edits: saves them; None where no browser may. Only what may be saved is
-            evaluated as the files are, all else as of unknown origin.
+        files: files of the model.
+        robot: the shown robot.
+        checks: checks that read these texts.
+        problems: report why a text is not shown.
+        saved: signals saves by other programs.
+        show: shows the robot of a text; its second argument is True for unsaved text.
+        change: change signal of the session.
+        edits: saves the texts; None where browsers may not. Text that may not be saved
+            is evaluated as text of unknown origin.
 
     Attributes:
-        changed: told after a change of the files, or of one of their texts.
-        followed: told after the texts were loaded and checked.
-        numbers: the properties and arguments of the model.
+        changed: signal after a change of the files, or of one of their texts.
+        followed: signal after the texts were loaded and checked.
+        numbers: properties and arguments of the model.
     """
 
     def __init__(
@@ -84,7 +84,7 @@ class ModelText:
         self._buffers: dict[str, Buffer] = {}
         self._words: tuple[Robot | None, tuple[OfferedElement, ...]] | None = None
         self.changed, self.followed = Signal(change, None), Signal(change, None)
-        # A copy of a session begins with what is not saved there.
+        # A copy of a session starts with the unsaved texts of the original.
         self.numbers = ModelNumbers(
             files.arguments, self._sources, change, checks.moved
         )
@@ -111,39 +111,39 @@ class ModelText:
         self._find()
 
     def close(self) -> None:
-        """Follow the session no longer."""
+        """Stop following the session."""
         self._loader.close()
         for end in self._ends:
             end()
 
     def wait(self, timeout: float) -> bool:
-        """Wait until each text is shown, or its problems; False for longer [s]."""
+        """Wait until all texts or their problems are shown; False on a timeout [s]."""
         return self._loader.wait(timeout)
 
     def known(
         self, model: Path, texts: Texts, trusted: bool
     ) -> Robot | RobotError | None:
-        """Return what loading a model would give; None where that is not known.
+        """Return the result of loading a model; None where it is not known.
 
         Args:
-            model: its file.
-            texts: those that differ from the disk.
+            model: the model file.
+            texts: texts that differ from the disk.
             trusted: as for `load_robot`.
         """
         return self._loader.known(model.absolute(), texts, trusted)
 
     def forget(self) -> None:
-        """Forget what is known of the model: a file that it needs came or went."""
+        """Forget the last load: a file that the model needs has come or gone."""
         self._loader.forget()
 
     @property
     def checked(self) -> Mapping[str, int]:
-        """Name of a file → the version of its text that the problems are of."""
+        """Name of a file → version of the text that the shown problems refer to."""
         return self._loader.checked
 
     @property
     def can_save(self) -> bool:
-        """Whether users may write the files."""
+        """Return whether users may write the files."""
         return self._edits is not None
 
     @property
@@ -153,22 +153,22 @@ class ModelText:
 
     @property
     def unsaved(self) -> tuple[Buffer, ...]:
-        """The files whose text is another one than on the disk."""
+        """The files whose text differs from the disk."""
         return tuple(b for b in self._buffers.values() if b.is_changed)
 
     @property
     def texts(self) -> Texts:
-        """The texts that are not saved."""
+        """The unsaved texts."""
         return {str(buffer.path): buffer.text for buffer in self.unsaved}
 
     def holds(self, edits: Sequence[Edit]) -> bool:
-        """Tell whether edits are in files of the model, and one of them is unsaved."""
+        """Return whether all edits are in files of the model, one of them unsaved."""
         unsaved = {buffer.name for buffer in self.unsaved}
         names = {self.name_of(edit.file) for edit in edits}
         return "" not in names and not unsaved.isdisjoint(names)
 
     def name_of(self, file: str | None) -> str:
-        """Return the name of a file; "" for what is no file of the model."""
+        """Return the name of a file; "" if the model does not use it."""
         if file is None:
             return ""
         whole = Path(os.path.abspath(file))
@@ -176,20 +176,20 @@ class ModelText:
 
     @property
     def expanded(self) -> str:
-        """The text that xacro has made of the last one that loads; "" without xacro."""
+        """The output of xacro for the last text that loaded; "" without xacro."""
         robot = self._robot.model
         source = None if robot is None else self._sources().texts
         return robot.description if robot is not None and source else ""
 
     def opened(self, name: str) -> Buffer | None:
-        """Return a file that was opened; None for others."""
+        """Return an open file; None for others."""
         return self._buffers.get(name)
 
     def buffer(self, name: str) -> Buffer:
-        """Return a file, which is read when it is opened first.
+        """Return a file, and read it at the first call.
 
         Raises:
-            UsageError: there is none of this name.
+            UsageError: no file has this name.
         """
         path = self._paths.get(name)
         if path is None:
@@ -204,14 +204,14 @@ class ModelText:
         return None if robot is None else robot.links.get(name)
 
     def element_at(self, place: Place | None) -> TextPlace | None:
-        """Return where an element is in a file of the model; None for other places."""
+        """Locate an element in a file of the model; None for other places."""
         name = "" if place is None else self.name_of(place.file)
         if place is None or not name:
             return None
         source = SourceFile(self.buffer(name).text, "utf-8")
         start = min(source.offset(place), len(source.text))
         if place.column is None:
-            # Of a macro call only the line is known.
+            # A macro call is known by its line only.
             line = source.text[start:].partition("\n")[0]
             start += len(line) - len(line.lstrip())
         tag = source.tag(start)
@@ -220,7 +220,7 @@ class ModelText:
         return TextPlace(name, place.line, Extent(*units))
 
     def words(self) -> tuple[OfferedElement, ...]:
-        """Return what an editor offers in the model; worked out once for each robot."""
+        """Return the elements that an editor offers; computed once for each robot."""
         robot = self._robot.model
         if self._words is None or self._words[0] is not robot:
             files = () if robot is None else map(str, robot.files)
@@ -229,23 +229,23 @@ class ModelText:
         return self._words[1]
 
     def keys(self, buffer: Buffer) -> Mapping[str, Mapping[str, tuple[str, ...]]]:
-        """Return what an editor offers in a parameter file."""
-        # The import is late so that the first page does not wait for the rules.
+        """Return the keys that an editor offers in a parameter file."""
+        # Imported late so that the first page does not wait for the rules.
         from sambot_viz.session.editor.keys import offered_keys
 
         return offered_keys(self._robot.model, buffer.text)
 
-    # What users do; with the session locked.
+    # Actions of users; the caller holds the session's lock.
 
     def replace(
         self, name: str, version: int, start: int, end: int, new: str, *, more: bool
     ) -> None:
-        """Replace a part of a text, and show it unless more follows at once.
+        """Replace a part of a text, and show it unless more changes follow at once.
 
         The other arguments are those of `Buffer.replace`.
 
         Raises:
-            UsageError: it is too long.
+            UsageError: the text is too long.
         """
         buffer = self.buffer(name)
         before = buffer.text
@@ -254,7 +254,7 @@ class ModelText:
             self._tell(loads=not more)
 
     def _note_applied(self, buffer: Buffer, before: str) -> None:
-        """Note a fix that the editor of the page has made in a text."""
+        """Record a fix that the page's editor has applied to a text."""
         for problem in self._problems.shown.value.listed:
             edits = problem.edits
             is_of_text = edits and all(
@@ -265,7 +265,7 @@ class ModelText:
                 self._problems.note_applied(edits)
 
     def apply(self, edits: Iterable[Edit]) -> None:
-        """Make the edits of a problem in the texts.
+        """Apply the edits of a problem to the texts.
 
         Raises:
             UsageError: a text has changed since it was checked.
@@ -286,7 +286,7 @@ class ModelText:
         """Show another model of the folder in this session, or that of the server.
 
         Args:
-            model: its file, which need not exist.
+            model: the model file, which need not exist.
         """
         model = model.absolute()
         if model == self._files.model:
@@ -298,7 +298,7 @@ class ModelText:
         self._tell()
 
     def revert(self, name: str) -> list[Replacement]:
-        """Return how a text becomes that on the disk; see `Buffer.revert`."""
+        """Return the changes that restore the text on disk; see `Buffer.revert`."""
         changes = self.buffer(name).revert()
         self._tell()
         return changes
@@ -306,16 +306,16 @@ class ModelText:
     def put_back(
         self, name: str, now: str, before: str, moved: Mapping[str, float]
     ) -> None:
-        """Undo, or do again, what the editor has written.
+        """Undo or redo a change of the editor.
 
         Args:
-            name: of the file.
-            now: its text.
-            before: the text that takes its place.
-            moved: the numbers that are moved then.
+            name: name of the file.
+            now: its current text.
+            before: the text that replaces it.
+            moved: moved numbers after the call.
 
         Raises:
-            UsageError: the text is another one by now.
+            UsageError: the text has changed meanwhile.
         """
         buffer = self.buffer(name)
         if buffer.text != now:
@@ -325,12 +325,12 @@ class ModelText:
         self.numbers.restore(moved)
 
     def keep(self, name: str, place: int | None = None) -> None:
-        """Let a text be saved over what another program has saved; see `Buffer`."""
+        """Allow a save to overwrite another program's changes; see `Buffer.keep`."""
         self.buffer(name).keep(place)
         self._tell()
 
     def save_all(self) -> list[str]:
-        """Write each text that is not saved; why one cannot be written, for each."""
+        """Save each unsaved text; return a reason for each that cannot be saved."""
         refused: list[str] = []
         for buffer in self.unsaved:
             try:
@@ -343,8 +343,8 @@ class ModelText:
         """Write a text into its file.
 
         Raises:
-            UsageError: it may not be written, or another program has saved the file.
-            EditRefused: it cannot be written.
+            UsageError: users may not write it, or another program has saved the file.
+            EditRefused: the file cannot be written.
         """
         buffer = self.buffer(name)
         if self._edits is None:
@@ -371,7 +371,7 @@ class ModelText:
 
     @property
     def can_create(self) -> bool:
-        """Whether users may add files."""
+        """Return whether users may add files."""
         return self._edits is not None and self._edits.can_create
 
     def create(self, name: str) -> None:
@@ -381,8 +381,8 @@ class ModelText:
             name: as for `ModelEdits.create`.
 
         Raises:
-            UsageError: it may not be written, or there are too many.
-            EditRefused: it cannot be written.
+            UsageError: users may not write it, or there are too many files.
+            EditRefused: the file cannot be written.
         """
         if self._edits is None or len(self._paths) >= limits.EDITED_FILES.value:
             raise UsageError("no file can be added here")
@@ -393,7 +393,7 @@ class ModelText:
         self._saves += 1
         self._tell()
 
-    # What follows
+    # Consequences of edits
 
     def _tell(self, *, loads: bool = True) -> None:
         self.changed.touch()
@@ -402,7 +402,7 @@ class ModelText:
             self._loader.begin()
 
     def _move(self) -> None:
-        """Show the numbers where they are now; the checks follow when they rest."""
+        """Show the moved numbers; run the checks once they rest."""
         self._checks.moved = self.numbers.moved.value
         self._loader.begin(rests=False)
 
@@ -423,7 +423,7 @@ class ModelText:
         return ModelSources(texts, names)
 
     def _wanted(self) -> ModelState:
-        """Return what is to be shown now."""
+        """Return the state to show now."""
         typed, versions = self.texts, {n: b.version for n, b in self._buffers.items()}
         texts = dict(typed)
         numbers = self.numbers.listed() if self.numbers.moved.value else []
@@ -444,7 +444,7 @@ class ModelText:
         )
 
     def _find(self) -> None:
-        """Look for the files of the model, after there may be others."""
+        """Look for the files of the model, after new ones may have appeared."""
         robot = self._robot.model
         found: list[Path] = [self._files.model, *self._loader.suspects]
         found += () if robot is None else robot.files
@@ -462,14 +462,14 @@ class ModelText:
             self.changed.touch()
 
     def _look(self) -> None:
-        """Compare with the disk what another program may have saved."""
+        """Compare the files with the disk, after other programs may have saved them."""
         self._find()
         looked = [buffer.look() for buffer in self._buffers.values()]
-        # What this session has saved is what it has loaded.
+        # This session has already loaded what it has saved.
         own = {b.path for b in self._buffers.values() if b.theirs is None}
         self._loader.forget(None if any(looked) else self._saved.value - own)
         if self._was_other:
-            # The server follows its own model only.
+            # The server follows only its own model.
             self._saves += 1
         if any(looked) or self._was_other:
             self._tell()

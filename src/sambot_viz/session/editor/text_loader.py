@@ -1,4 +1,4 @@
-"""Shows the robot of the texts in an editor, and checks them, in a thread."""
+"""Shows the robot of an editor's texts, and checks them, in a thread."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ from sambot_viz.session.signals import Change, Signal
 from sambot_viz.unsaved import unsaved
 
 Texts = Mapping[str, str]
-"""Whole path of a file → its text."""
+"""Absolute path of a file → its text."""
 REST = 0.3
-"""A number is moved no more when it was not for this time [s]."""
+"""A moved number is at rest after this time without a move [s]."""
 
 
 class ModelState(NamedTuple):
-    """What is to be shown.
+    """The state to show.
 
     Attributes:
-        files: of the model.
-        is_other: whether it is another model than the server's.
-        saves: another number after other programs have saved files of such a model.
-        texts: those that differ from the disk.
-        arguments: of xacro, in place of those of the command line.
-        typed: the files whose text a user has written.
-        versions: name of a file → the version of its text.
+        files: files of the model.
+        is_other: whether the model differs from the server's.
+        saves: number that changes when other programs save files of such a model.
+        texts: texts that differ from the disk.
+        arguments: arguments of xacro, in place of those of the command line.
+        typed: files with text that a user has written.
+        versions: name of a file → version of its text.
     """
 
     files: ModelFiles
@@ -51,21 +51,21 @@ class _Result(NamedTuple):
 
 
 class TextLoader:
-    """Shows each state of the texts that loads; one with a mistake leaves the last one.
+    """Shows each state that loads; after a mistake, the last good state stays.
 
     Args:
-        robot: what is shown.
-        checks: look at it with these texts.
-        problems: show why a text is not shown.
-        show: shows the robot of a text, and whether that is unsaved.
-        change: of the session.
-        wanted: returns what is to be shown now; called with the session locked.
-        trusts_typed: whether what users write is evaluated as the files are.
-        changed: told after the problems are those of other texts.
+        robot: the shown robot.
+        checks: checks that read these texts.
+        problems: report why a text is not shown.
+        show: shows the robot of a text; its second argument is True for unsaved text.
+        change: change signal of the session.
+        wanted: returns the state to show now; called with the session's lock held.
+        trusts_typed: whether text of users is evaluated with the trust of the files.
+        changed: called once the problems refer to other texts.
 
     Attributes:
-        checked: name of a file → the version of its text that the problems are of.
-        suspects: the files of a text that does not load.
+        checked: name of a file → version of the text that the problems refer to.
+        suspects: files of a text that does not load.
     """
 
     def __init__(
@@ -93,24 +93,23 @@ class TextLoader:
         self._result: _Result | None = None
 
     def close(self) -> None:
-        """Show nothing more."""
+        """Stop showing texts."""
         self._closed = True
 
     def wait(self, timeout: float) -> bool:
-        """Wait until each text is shown, or its problems; False for longer [s]."""
+        """Wait until all texts or their problems are shown; False on a timeout [s]."""
         return self._background.wait(timeout)
 
     def known(
         self, model: Path, texts: Texts, trusted: bool, arguments: Texts | None = None
     ) -> Robot | RobotError | None:
-        """Return what a model gives with some texts; None where that is not known.
+        """Return the result of loading a model with some texts; None if not known.
 
-        It is known when these texts, or the same ones in the files by now, were loaded
-        last.
+        It is known if the last load used the same texts, unsaved or saved by now.
 
         Args:
-            model: the whole path of its file.
-            texts: as in `ModelState`; those of other files do not count.
+            model: absolute path of the model file.
+            texts: as in `ModelState`; texts of other files are ignored.
             trusted: as for `load_robot`.
             arguments: as in `ModelState`.
         """
@@ -122,7 +121,7 @@ class TextLoader:
         ):
             return None
         asked, loaded = self._of_model(model, texts), result.state.texts
-        # What no text is known of may have been saved by another program.
+        # Another program may have saved a file whose text is not loaded here.
         if not loaded or not asked.keys() <= loaded.keys():
             return None
         now = (
@@ -132,27 +131,27 @@ class TextLoader:
         return result.robot if [*now] == [*loaded.values()] else None
 
     def forget(self, saved: Iterable[Path] | None = None) -> None:
-        """Load again what was loaded last.
+        """Repeat the last load.
 
         Args:
-            saved: only if one of these files is of the model; None in any case.
+            saved: repeat it only if one of these files belongs to the model; None to
+                repeat it in any case.
         """
         files = self._files_of(self._loaded.files.model)
         if saved is None or not files.isdisjoint(saved):
             self._result = None
 
     def begin(self, *, rests: bool = True) -> None:
-        """Show what is wanted now, soon; then check it.
+        """Show the wanted state soon, then check it.
 
         Args:
-            rests: False while a hand moves a number: only when it rests, the checks
-                follow.
+            rests: False while a user drags a number: the checks wait until it rests.
         """
         self._background.do(self, self._load_newest)
         self._background.do(self._checks, self._check, after=0.0 if rests else REST)
 
     def _of_model(self, model: Path, texts: Texts) -> Texts:
-        """Return the texts of the files that the robot is loaded from."""
+        """Return the texts of the files that make up the robot."""
         known = self._files_of(model)
         return {file: text for file, text in texts.items() if Path(file) in known}
 
@@ -216,5 +215,5 @@ class TextLoader:
 
 
 def _of_robot(state: ModelState) -> object:
-    """Return what the robot depends on."""
+    """Return the parts of a state that determine the robot."""
     return state.files.model, state.saves, state.texts, state.arguments

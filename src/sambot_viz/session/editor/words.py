@@ -1,4 +1,4 @@
-"""The words that an editor offers: those that `check` knows, and names of the model."""
+"""Words that an editor offers: those that `check` knows, and names in the model."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ class OfferedElement:
 
     Attributes:
         name: its tag.
-        children: tags that may be in it.
-        attributes: name → the values that are offered for it.
-        texts: what its text may be.
-        is_root: whether a document begins with it.
+        children: tags that it may contain.
+        attributes: name → offered values.
+        texts: offered texts.
+        is_root: whether it may be the root of a document.
     """
 
     name: str
@@ -47,11 +47,11 @@ class OfferedElement:
 
 
 def offered(robot: Robot | None, files: Iterable[str]) -> list[OfferedElement]:
-    """Return what a model may have.
+    """Return the elements that a model may have.
 
     Args:
-        robot: the last one that loaded; its links and joints are offered.
-        files: those of the model; their macros are offered.
+        robot: last robot that loaded, whose links and joints become offers.
+        files: texts of the model's files, whose macros become offers.
     """
     if robot is not None and robot.language == "sdf":
         return list(_sdf(robot))
@@ -80,8 +80,8 @@ def offered(robot: Robot | None, files: Iterable[str]) -> list[OfferedElement]:
 
 
 def _frames() -> tuple[str, ...]:
-    """Return the elements of Gazebo whose text is a link."""
-    # The import is late so that the first page does not wait for the rules.
+    """Return Gazebo's elements whose text names a link."""
+    # Imported late so that the first page does not wait for the rules.
     from sambot_viz.checks.around.files.gazebo import SENSOR_FRAMES
     from sambot_viz.checks.around.frame_names import DRIVE_BASES
 
@@ -89,7 +89,7 @@ def _frames() -> tuple[str, ...]:
 
 
 def _values(robot: Robot | None) -> dict[str, tuple[str, ...]]:
-    """Return the values of attributes, by "tag.name"."""
+    """Return the offered values of attributes, by "tag.name"."""
     links = () if robot is None else tuple(robot.links)
     joints = () if robot is None else tuple(robot.joints)
     return {
@@ -124,7 +124,7 @@ def _sdf(robot: Robot) -> Iterator[OfferedElement]:
             {name: tuple(v.words) for name, v in element.attributes.items()},
             texts.get(element.name, tuple(element.text.words)),
         )
-        # An element means several things, such as <joint> in a model and in a plugin.
+        # One tag may have several meanings, such as <joint> in a model and a plugin.
         other = merged.get(made.name, made)
         children = tuple(dict.fromkeys((*other.children, *made.children)))
         attributes = {**other.attributes, **made.attributes}
