@@ -1,10 +1,10 @@
-"""Showing what was saved: the model, its meshes and textures, the config.
+"""Shows saved files again: the model, its meshes and textures, and the config.
 
-A save of a file around the model, such as ekf.yaml, has the checks run again.
+A save of a file beside the model, such as ekf.yaml, runs the checks again.
 
-A save with a mistake never removes the robot: the last good one stays, with the
-problem beside it, until a save fixes it. A file that has a mistake from the start is
-shown by its problem alone, and drawn as soon as it is fixed.
+A save with a mistake never removes the robot: the last good one stays, with the problem
+beside it, until a save fixes it. A file with a mistake at the start shows only its
+problem, and the robot appears with the fix.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ class Reloader:
     """Reloads what sessions show when its files are saved.
 
     Args:
-        sessions: what shows them.
-        sources: the files, and how they are read and shown.
+        sessions: sessions that show the files.
+        sources: the files, and the functions that read and show them.
         report: called with all problems of the model and the config whenever a save
             has changed them.
     """
@@ -65,7 +65,7 @@ class Reloader:
         self._end_waiting: list[Callable[[], None]] = []
 
     def start(self) -> None:
-        """Follow the files from now on; saves since they were opened count too."""
+        """Follow the files from now on, and show saves since they were opened."""
         self._reported = self._problems()
         self._watcher = FileWatcher(
             self._watched,
@@ -81,7 +81,7 @@ class Reloader:
         if self._watcher is not None:
             self._watcher.close()
 
-    # What is watched
+    # Watched files
 
     def _model_files(self) -> set[Path]:
         robot = self._sessions.robot
@@ -93,7 +93,7 @@ class Reloader:
         reference = self._sessions.reference
         compared = None if reference is None else reference.robot
         known = (self._sessions.robot, compared, *shown, *others)
-        # Many sessions show the same one.
+        # Many sessions show the same robot.
         robots = {id(robot): robot for robot in known if robot is not None}
         files = self._sessions.meshes.files
         return {
@@ -104,11 +104,11 @@ class Reloader:
         }
 
     def _files_around(self) -> set[Path]:
-        """The files that were compared with the model."""
+        """Return the files that the checks compared with the model."""
         return {f for s in self._sessions.all() for f in s.checks.files.value}
 
     def _files_of_student(self) -> set[Path]:
-        """The files of a student, and the folders: those change with each new file."""
+        """Return a student's files and folders; a new file changes its folder."""
         study = self._sessions.options.study
         return set() if study is None else {*study.files()}
 
@@ -127,7 +127,7 @@ class Reloader:
         files = self._model_files() | self._asset_files() | config | own
         files |= self._files_around() | self._files_of_student()
         files |= self._files_of_reference()
-        # A file that is missing now may appear anywhere in the package.
+        # A missing file may appear anywhere in the package.
         waits = self._waiting_for_files
         return Watched(frozenset(files), self._model if waits else None)
 
@@ -137,11 +137,11 @@ class Reloader:
 
     @property
     def _waiting_for_files(self) -> bool:
-        """Whether a file that does not exist yet could fix a problem."""
+        """Return whether a file that does not exist yet could fix a problem."""
         robot = self._sessions.robot
         return bool(self._suspects) or (robot is not None and something_missing(robot))
 
-    # What is done
+    # Actions
 
     def _changed(self, changed: frozenset[Path], appeared: frozenset[Path]) -> None:
         try:
@@ -179,8 +179,8 @@ class Reloader:
         """Show the model again.
 
         Args:
-            path: its file.
-            anew: whether another file than those of its text came or went.
+            path: the model file.
+            anew: whether a file other than the model's own texts has come or gone.
         """
         try:
             if reload_problems.is_pipe(path):
@@ -188,7 +188,7 @@ class Reloader:
             robot = self._load(path, anew=anew)
             is_first = self._sessions.robot is None
             if is_first:
-                # What the command line says of joints could not be checked before.
+                # The joints on the command line could not be checked before.
                 self._sessions.options.start_pose.state(robot)
         except RobotError as error:
             self.refuse_model(error)
@@ -212,7 +212,7 @@ class Reloader:
             with session.lock:
                 if anew:
                     text.forget()
-                # A text that was saved has been loaded already.
+                # The saved text may be loaded already.
                 known = text.known(path, {}, self._sessions.options.trusted)
         if isinstance(known, RobotError):
             raise known
@@ -226,7 +226,7 @@ class Reloader:
             self._report_changed()
 
     def _describe(self, robot: Robot) -> None:
-        """Give a live robot the model that was saved, where that is allowed."""
+        """Send the saved model to a live robot, where that is allowed."""
 
         def told(node: str, why: str) -> None:
             made = reload_problems.described(text(node, 80), why)
@@ -239,7 +239,7 @@ class Reloader:
         self._sessions.for_each(send, copies=False)
 
     def refuse_model(self, error: RobotError) -> None:
-        """Show why the model is not shown, and follow the files that may fix it."""
+        """Report why the model is not shown, and follow the files that may fix it."""
         named = (Path(p.file) for p in error.problems if p.file is not None)
         model = () if self._model is None else (self._model,)
         suspects = (*model, *error.files, *named)
@@ -249,7 +249,7 @@ class Reloader:
         self._sessions.set_reload_problems("model", error.problems)
 
     def refuse_config(self, error: ConfigError) -> None:
-        """Show why the config is not shown."""
+        """Report why the config is not shown."""
         self._of_config = error.problems
         self._sessions.set_reload_problems("config", error.problems)
 
@@ -259,14 +259,14 @@ class Reloader:
         return (*self._of_model, *self._of_config, *of_reference)
 
     def _report_changed(self) -> None:
-        """Report the problems if they are not those reported last."""
+        """Report the problems if they differ from the last report."""
         problems = self._problems()
         if self._report is not None and problems != self._reported:
             self._report(problems)
         self._reported = problems
 
     def _opened(self) -> None:
-        """Another config was opened in the page."""
+        """Follow the config that a user has opened in the page."""
         self._wait_no_longer()
         self._of_config = self._documents.current.problems
         self._ask_again()
@@ -276,9 +276,9 @@ class Reloader:
         """Show the config again.
 
         Args:
-            path: of its file.
-            before: the view of the config that is shown; by default that of the file
-                as it was read last.
+            path: the config file.
+            before: view of the shown config; by default the view in the file as last
+                read.
         """
         self._wait_no_longer()
         try:
@@ -307,7 +307,7 @@ class Reloader:
             self._wait_for_undo(session, path, before)
 
     def _wait_for_undo(self, session: Session, path: Path, before: Plain) -> None:
-        """Show the file once a user has undone, or saved, all changes."""
+        """Show the file after a user has undone or saved all changes."""
         modified = session.history.modified
 
         def look() -> None:
@@ -322,20 +322,19 @@ class Reloader:
             end()
 
     def _take(self, session: Session, path: Path, text: str, before: Plain) -> bool:
-        """Show the file, unless that would throw away what a user has changed.
+        """Show the file, unless a user's changes would be lost.
 
-        The views of browsers stay as they are, unless the file has another view than
-        before.
+        Browsers keep their views, unless the view in the file has changed.
 
         Returns:
-            False when the changes of a user were kept and the file is not shown.
+            False when a user's changes stay and the file is not shown.
         """
         with session.lock:
             if (
                 session.document.config.to_yaml() == text
                 or self._documents.file != path
             ):
-                # The page itself saved the file, or opened another one meanwhile.
+                # The page saved the file itself, or has opened another one.
                 return True
             if session.history.modified.value:
                 return False

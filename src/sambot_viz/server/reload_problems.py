@@ -1,4 +1,4 @@
-"""Why a file that was saved is not shown, as Problems for the page."""
+"""Problems that the page shows when a saved file cannot be shown."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from sambot_viz.errors import JointError, Problem
 
 
 def unreadable(code: str, path: Path) -> Problem:
-    """The file was replaced by something that is not a file."""
+    """Report that something other than a file has replaced the file."""
     return Problem(
         "error",
         code,
@@ -20,7 +20,7 @@ def unreadable(code: str, path: Path) -> Problem:
 
 
 def start_pose(error: JointError) -> Problem:
-    """The joint positions of the command line do not fit the first robot."""
+    """Report that the command line's joint positions do not fit the first robot."""
     return Problem(
         "error",
         "start-position-refused",
@@ -30,7 +30,7 @@ def start_pose(error: JointError) -> Problem:
 
 
 def kept(file: str) -> Problem:
-    """The config was saved elsewhere, and a user has changed it in the page."""
+    """Report a config that was saved elsewhere after a user has changed it here."""
     return Problem(
         "warning",
         "config-changes-kept",
@@ -42,7 +42,7 @@ def kept(file: str) -> Problem:
 
 
 def described(node: str, why: str) -> Problem:
-    """What the node of a live robot has answered to the model that was saved."""
+    """Report a live robot's answer to the saved model."""
     if not why:
         return Problem(
             "info",
@@ -60,7 +60,7 @@ def described(node: str, why: str) -> Problem:
 
 
 def internal_error(error: Exception) -> Problem:
-    """The program failed while it showed what was saved."""
+    """Report that the program failed to show a saved file."""
     return Problem(
         "error",
         "reload-failed",
@@ -70,7 +70,7 @@ def internal_error(error: Exception) -> Problem:
 
 
 def drawing_failed(error: Exception) -> Problem:
-    """A session could not draw what the mesh thread has read."""
+    """Report that a session could not draw what the mesh thread has read."""
     return Problem(
         "error",
         "reload-failed",
@@ -80,7 +80,7 @@ def drawing_failed(error: Exception) -> Problem:
 
 
 def unwatched(reason: str) -> Problem:
-    """The system reports no changes of files."""
+    """Report that the system does not watch files."""
     return Problem(
         "warning",
         "watch-limited",
@@ -91,7 +91,7 @@ def unwatched(reason: str) -> Problem:
 
 
 def is_pipe(path: Path) -> bool:
-    """Whether a path is a pipe or a device: reading it might never end."""
+    """Return whether a path is a pipe or a device: reading it might never end."""
     try:
         mode = path.stat().st_mode
     except (OSError, ValueError):

@@ -43,25 +43,25 @@ class Server:
     """A viser server whose every browser sees a session.
 
     Args:
-        options: where to listen, for whom, and what every session begins with.
-        make_config: a fresh .rviz document; called once per session.
+        options: the address, the users, and the start state of every session.
+        make_config: returns a fresh .rviz document; called once per session.
         models: reads other models, for a RobotModel from a file.
-        listening: a server that listens already; None makes one.
+        listening: a server that already listens; None makes one.
         poses: the named poses; a private session has a copy that writes no file.
-        files: opens and follows .rviz files for the shared session; None leaves Open
-            and Save out.
-        ask_page: makes a page of what is seen; None leaves that out.
-        moved_by: the robot of a recording, which every session plays for itself, or of
-            a live source.
-        recordings: opens others than those that are shown; None leaves that out.
+        files: opens and follows .rviz files for the shared session; None hides Open
+            and Save.
+        ask_page: exports the visible state as a page; None hides the export.
+        moved_by: the robot of a live source, or of a recording, which every session
+            plays for itself.
+        recordings: opens other recordings than the shown ones; None hides that.
 
     Attributes:
-        sessions: what the browsers see.
-        clients: which of them sees what.
+        sessions: the sessions.
+        clients: the clients, each with its session.
 
     Raises:
         ServerError: the address cannot be listened on.
-        FrameError: static transforms that form a ring.
+        FrameError: the static transforms form a ring.
     """
 
     def __init__(
@@ -109,8 +109,8 @@ class Server:
             except BaseException:
                 self.stop()
                 raise
-        # It runs before that of viser, which would print a line, and would find clients
-        # and sessions that still send.
+        # It runs before viser's handler, which would print a line, and would find
+        # clients and sessions that still send.
         atexit.register(self.stop)
         self._viser.on_client_connect(clients.join)
         self._viser.on_client_disconnect(clients.leave)
@@ -124,7 +124,7 @@ class Server:
 
     @property
     def url(self) -> str:
-        """The address to open: "http://127.0.0.1:8080"."""
+        """The address for browsers: "http://127.0.0.1:8080"."""
         return self._listener.url()
 
     @property
@@ -136,11 +136,11 @@ class Server:
 
     @property
     def viser(self) -> viser.ViserServer:
-        """The viser server, to add your own nodes and widgets."""
+        """The viser server, for a program's own nodes and widgets."""
         return self._viser
 
     def _state(self) -> ServerState:
-        """Return whether a robot, a lesson or the data of a source can be seen."""
+        """Return whether a robot, a lesson or data of a source is visible."""
         if self._stopped.is_set():
             return "stopping"
         if self.sessions.robot is not None or self.options.study is not None:
@@ -149,18 +149,18 @@ class Server:
         return "ready" if shows_data else "waiting"
 
     def wait(self) -> None:
-        """Return when the server is stopped."""
+        """Wait until the server stops."""
         wait_for(self._stopped)
 
     def stop(self) -> None:
-        """Stop the server and free the port; a second call does nothing."""
+        """Stop the server and free the port; further calls do nothing."""
         if not self._open.acquire(blocking=False):
             return
         atexit.unregister(self.stop)
         self._stopped.set()
         loop = self._viser.get_event_loop()
-        # In this order: pages hold back what is done from now on, what they have sent
-        # is done, and a student's texts are kept with it.
+        # The order matters: pages hold back new edits, the server handles the edits
+        # that they have sent, and then it saves a student's texts.
         _run(loop, self._listener.tell_stop())
         self._save_texts()
         self._end_broadcast()
@@ -169,7 +169,7 @@ class Server:
         self._listener.close()
 
     def _save_texts(self) -> None:
-        """Write what a student has typed, behind what the pages have sent."""
+        """Save a student's texts, after all edits that the pages have sent."""
         place = self.sessions.shared_place
         if self.options.study is None or place is None or place.session is None:
             return
@@ -188,30 +188,30 @@ class Server:
 
 
 def prepare_page(server: viser.ViserServer) -> None:
-    """Light for the page, and nothing of viser's own but a panel for scripts."""
+    """Add light to the page, and hide viser's controls except a panel for scripts."""
     server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
     server.gui.set_panel_label("Script")
     prepare_scene(server.scene)
 
 
 def prepare_scene(scene: viser.SceneApi) -> None:
-    """Take away viser's light; without our script the page still has some to see by."""
+    """Replace viser's lights; a page without our script still has some light."""
     scene.configure_default_lights(enabled=False)
     scene.configure_environment_map(None)
     scene.add_light_ambient("/~ambient", intensity=2.0)
 
 
 async def _rounds() -> None:
-    """Let an event loop run what threads have posted, so that nothing is left over.
+    """Let an event loop run the work that threads have posted, so that none remains.
 
-    A value that is set on a widget takes three rounds of the loop.
+    Setting the value of a widget takes three rounds of the loop.
     """
     for _ in range(5):
         await asyncio.sleep(0)
 
 
 def _run(loop: asyncio.AbstractEventLoop, last: Coroutine[Any, Any, None]) -> None:
-    """Run something on an event loop, unless that has ended, and wait a moment."""
+    """Run a coroutine on an event loop, if the loop still runs, and wait a moment."""
     if loop.is_closed():
         last.close()
         return

@@ -1,4 +1,4 @@
-"""All sessions of a server: what they share, and what is done in each of them."""
+"""All sessions of a server: their shared state, and actions in each of them."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ MakeConfig = Callable[[], RvizConfig]
 
 @dataclass(eq=False)
 class SessionPlace:
-    """A thread, the session that lives in it, and its window, as they come."""
+    """A thread, its session, and the session's window, as they are created."""
 
     worker: Worker
     session: Session | None = None
@@ -49,28 +49,28 @@ class Sessions:
     """The sessions of a server: one for all clients, and those of single clients.
 
     Args:
-        server: whose browsers see them.
-        options: what every session begins with.
-        make_config: a fresh .rviz document; called once per session.
+        server: the server, whose browsers see the sessions.
+        options: start state of every session.
+        make_config: returns a fresh .rviz document; called once per session.
         models: reads other models, for a RobotModel from a file.
         poses: the named poses; a private session has a copy that writes no file.
-        moved_by: the robot of a recording, which every session plays for itself, or of
-            a live source.
+        moved_by: the robot of a live source, or of a recording, which every session
+            plays for itself.
 
     Attributes:
-        lock: held while sessions come and go, and what a new one begins with changes.
-        closed: set at the end; nothing opens after it.
-        options: what every session begins with.
-        meshes: what was read of mesh files, for all of them.
-        opened: the robot that was shown last.
-        robot: what is shown in all of them that have no model of their own: the opened
-            one, with those that a program has added.
-        assemble: makes the second of the first.
-        edits: writes fixes into the files of the model, where browsers may; only in
-            the session of all clients.
-        model_files: the text of the model that browsers see; None without a file.
-        reference: the model that all sessions can compare theirs with; None for none.
-        on_files: called after other files may be shown than before, in any thread.
+        lock: guards the list of sessions, and the start state of new ones.
+        closed: set at the end; no session opens after it.
+        options: start state of every session.
+        meshes: contents of mesh files, shared by all sessions.
+        opened: last robot that was shown.
+        robot: the opened robot with the robots that a program has added; sessions
+            without a private model show it.
+        assemble: makes `robot` from `opened`.
+        edits: writes fixes into the model's files, where browsers may; only in the
+            shared session.
+        model_files: the model's files that browsers see; None without a file.
+        reference: model with which all sessions can compare theirs; None for none.
+        on_files: called when the set of shown files may have changed, in any thread.
     """
 
     def __init__(
@@ -104,10 +104,10 @@ class Sessions:
         self.lock = threading.RLock()
         self.closed = False
 
-    # Where they live
+    # Places
 
     def add_place(self, client_id: int | None) -> SessionPlace:
-        """Make the place of a client; None for that of all clients."""
+        """Create the place of a client; None for the shared place."""
         place = SessionPlace(Worker(self._server.get_event_loop()))
         with self.lock:
             self._places[client_id] = place
@@ -120,26 +120,26 @@ class Sessions:
 
     @property
     def shared_place(self) -> SessionPlace | None:
-        """The place of all clients; None when each has its own."""
+        """The shared place; None when each client has a private one."""
         return self._places.get(None)
 
     def own_place(self, client_id: int) -> SessionPlace | None:
-        """Return the place that a client has to itself; None when it has none."""
+        """Return the private place of a client; None when it has none."""
         return self._places.get(client_id)
 
     def place_of(self, client_id: int) -> SessionPlace | None:
-        """Return the place where a client is."""
+        """Return the place of a client, private or shared."""
         return self.own_place(client_id) or self.shared_place
 
     @property
     def shared(self) -> Session | None:
-        """The session of all clients; None when each has its own."""
+        """The shared session; None when each client has a private one."""
         place = self.shared_place
         return None if place is None else place.session
 
     @property
     def copies(self) -> int:
-        """The number of sessions that single clients have."""
+        """The number of private sessions."""
         with self.lock:
             places = list(self._places.items())
         return sum(n is not None and p.session is not None for n, p in places)
@@ -159,15 +159,15 @@ class Sessions:
         self._mesh_thread.close()
 
     def require_open(self) -> None:
-        """Raise ServerError after `close`: nobody would see what a program changes."""
+        """Raise ServerError after `close`: no client would see a program's changes."""
         if self.closed:
             raise ServerError("it was stopped; make a new Visualizer")
 
     def all(self, *, copies: bool = True) -> list[Session]:
-        """All sessions there are at the moment.
+        """Return all sessions that exist now.
 
         Args:
-            copies: also those that browsers have made of the shared one.
+            copies: include private copies of the shared session.
         """
         if not copies and self.shared is not None:
             return [self.shared]
@@ -175,11 +175,11 @@ class Sessions:
             sessions = [place.session for place in self._places.values()]
         return [session for session in sessions if session is not None]
 
-    # What is done in them
+    # Actions in the sessions
 
     def follow(self, action: Callable[[Session], object]) -> None:
-        """Call an action once with every session, present and to come; not copies."""
-        # A session that opens meanwhile is in one of both, and in no more.
+        """Call an action once with every session, present and future, but no copy."""
+        # A session that opens meanwhile is in exactly one of the two lists.
         with self.lock:
             self._followers.append(action)
             present = self.all(copies=False)
@@ -188,17 +188,17 @@ class Sessions:
 
     @property
     def model_text(self) -> ModelText | None:
-        """The texts of the session in which they may be saved; None without one."""
+        """The texts of the session that may save them; None without one."""
         place = self.shared_place
         return None if place is None or place.window is None else place.window.text
 
     def for_each(
         self, action: Callable[[Session], object], *, copies: bool = True
     ) -> None:
-        """Call an action with every session; one that fails does not stop the others.
+        """Call an action with every session; a failure does not stop the others.
 
         Args:
-            action: what to do.
+            action: the action.
             copies: as for `all`.
 
         Raises:
@@ -214,7 +214,7 @@ class Sessions:
             raise errors[0]
 
     def show_robot(self, robot: Robot) -> None:
-        """Show a robot in every session, present and to come, without its own model."""
+        """Show a robot in all sessions, present and future, without a private model."""
         with self.lock:
             self.opened = robot
             self.robot = robot = self.assemble(robot)
@@ -235,10 +235,10 @@ class Sessions:
         """Show other sources; copies of the shared session keep theirs.
 
         Args:
-            session: where; None is in all, present and to come.
+            session: the session; None for all, present and future.
             moved_by: the robot of the sources.
-            robot: what they describe; None shows the opened robot, which was given.
-            document: the config; None keeps what is shown.
+            robot: the robot in the sources; None shows the opened robot.
+            document: the config; None keeps the shown one.
         """
         for_all = session is None or session is self.shared
         shown = self.all(copies=False) if session is None else [session]
@@ -260,7 +260,7 @@ class Sessions:
     def _take_sources(
         self, shown: Sequence[Session], moved_by: SourceRobot, robot: Robot | None
     ) -> None:
-        """Let new sessions begin with other sources; other ones keep their robot."""
+        """Start new sessions with other sources; others keep their robot."""
         for other in self.all() if robot is not None else ():
             if other not in shown:
                 with other.lock:
@@ -272,7 +272,7 @@ class Sessions:
                 self.robot = self.assemble(robot)
 
     def show_reference(self) -> None:
-        """Compare all sessions with the reference, after another one was read."""
+        """Compare all sessions with the reference, after a new read of it."""
         self.on_files()
         try:
             self.for_each(self._give_reference)
@@ -285,7 +285,7 @@ class Sessions:
             session.comparison.take_reference(reference.name, reference.robot)
 
     def show_again(self) -> None:
-        """Show the opened robot, after `assemble` makes something else of it."""
+        """Show the opened robot again, after a change of `assemble`."""
         if self.opened is not None:
             self.show_robot(self.opened)
 
@@ -293,39 +293,39 @@ class Sessions:
         self.on_files()
 
     def refresh(self) -> None:
-        """Draw again what comes from mesh files and textures that have changed."""
+        """Redraw the contents of changed mesh files and textures."""
         try:
             self.for_each(lambda session: session.scene.refresh())
         finally:
             self._forget_unused_files()
 
     def _forget_unused_files(self) -> None:
-        """Let go of meshes and textures that no session draws any more."""
+        """Release meshes and textures that no session draws."""
         used = (session.scene.context.assets.used for session in self.all())
         self.meshes.keep_only(set[Asset]().union(*used))
 
     def _drawing_failed(self, error: Exception) -> None:
-        """Show that a session could not draw what the mesh thread has read."""
+        """Report that a session could not draw what the mesh thread has read."""
         self.set_reload_problems("fault", (reload_problems.drawing_failed(error),))
 
     def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
-        """Show in every session, present and to come, why a save is not shown."""
+        """Report in every session, present and future, why a save is not shown."""
         with self.lock:
             self._reload_problems[of] = tuple(problems)
         try:
             self.for_each(lambda s: s.problems.set_saves(of, problems))
         except Exception:
-            # What was saved is shown to the others all the same.
+            # The other sessions show the save nevertheless.
             _log.exception("a session could not show the problems of a save")
 
     def wait_for_meshes(self, timeout: float) -> None:
-        """Return when every model, mesh file and texture is read and drawn.
+        """Wait until every model, mesh file and texture is read and drawn.
 
         Args:
-            timeout: for each session [s].
+            timeout: longest wait for each session [s].
 
         Raises:
-            ServerError: that took longer.
+            ServerError: the wait took longer.
         """
         if self._models is not None and not self._models.wait(timeout):
             raise ServerError(f"a model was not read within {timeout:g} s")
@@ -338,15 +338,15 @@ class Sessions:
     def open(
         self, audience: object, worker: Worker, copy: SessionCopy | None = None
     ) -> Session:
-        """Make a session that shows what all show.
+        """Open a session that shows the shared state.
 
         Args:
-            audience: the server or a client: who sees it.
-            worker: the thread in which it lives.
-            copy: what it begins with instead.
+            audience: the server, for all clients, or one client.
+            worker: the session's thread.
+            copy: state to start with instead.
 
         Raises:
-            FrameError: static transforms that form a ring.
+            FrameError: the static transforms form a ring.
         """
         if copy is not None:
             config, poses = copy.config, copy.poses
@@ -365,7 +365,7 @@ class Sessions:
             self._moved_by if copy is None else copy.moved_by,
         )
         if audience is self._server and session.data is not None:
-            # Its pages are still to come.
+            # Its pages have not come yet.
             session.data.rest()
         connect([session.scene.statuses, session.checks.files], self._tell_files)
         if copy is not None:
@@ -381,15 +381,15 @@ class Sessions:
         return session
 
     def admit(self, place: SessionPlace, session: Session, *, copied: bool) -> None:
-        """Count a session among all; the worker of its place calls this.
+        """Add a session to the list of all; the worker of its place calls this.
 
-        A robot that is shown in all sessions meanwhile waits for the session's lock,
-        which its worker has, and so comes after what is shown here.
+        A robot that all sessions start to show meanwhile waits for the session's lock,
+        which the worker holds, and so appears after this one.
 
         Args:
-            place: where it lives.
-            session: it has just been opened.
-            copied: whether it is a copy of the shared one.
+            place: place of the session.
+            session: the new session.
+            copied: whether it is a copy of the shared session.
         """
         with self.lock:
             place.session = session
@@ -406,6 +406,6 @@ class Sessions:
 
 
 def _show(session: Session, robot: Robot, *, own: bool = False) -> None:
-    """Show a robot in a session that opens; what the rules find comes later."""
+    """Show a robot in a session that opens; the findings of the rules come later."""
     session.show_robot(robot, own=own)
     session.worker.post(session.checks.run)

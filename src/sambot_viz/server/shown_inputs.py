@@ -1,4 +1,4 @@
-"""A server of a model and a config, which are shown again when they are saved."""
+"""A server that shows a model and a config, again after each save."""
 
 from __future__ import annotations
 
@@ -37,22 +37,22 @@ if TYPE_CHECKING:
     from sambot_viz.server.recordings import Recordings
 
 PANELS_WITHOUT_ROBOT = 1.0
-"""The page gets its panels before the robot when a model takes longer to load [s]."""
+"""If a model takes longer to load, the page shows its panels before the robot [s]."""
 
 
 class ShownInputs:
-    """Starts a server for what is opened; `start` shows it.
+    """A server for the opened inputs; `start` shows them.
 
     Args:
-        inputs: the model and the config, with their options. What is broken in them,
-            if they may be, is shown by its problem, and drawn as soon as it is fixed.
-        listening: a server that listens already, so that the options' host and port
-            do not count; it is stopped with this one.
-        ask_page: makes a page of what is seen.
+        inputs: the model and the config, with their options. If the inputs may be
+            broken, the page shows their problems, and draws them once they are fixed.
+        listening: a server that already listens, to use in place of the options' host
+            and port; it stops with this one.
+        ask_page: exports the visible state as a page.
 
     Attributes:
-        configs: the config that is shown, and its file.
-        server: what browsers open.
+        configs: the shown config, and its file.
+        server: the server that browsers open.
 
     Raises:
         SambotVizError: as the constructor of `Visualizer`.
@@ -75,9 +75,9 @@ class ShownInputs:
             self._show_data(document, inputs.moved_by)
         self._stand_in_frame = document.global_options.get("Fixed Frame")
         self._assume_frame(document, inputs.moved_by)
-        # Of a live robot that had not said what it looks like.
+        # Switched off for a live robot without a description so far.
         self._switched_off: list[DisplayConfig] = []
-        # Root and top frame of the live robot that config and cameras were fitted to.
+        # Root and top frame of the live robot to which config and cameras were fitted.
         self._ends_of_live: tuple[str, str] | None = None
         self._reloader: Reloader | None = None
         self._live_model: LiveModel | None = None
@@ -100,7 +100,7 @@ class ShownInputs:
             self._recordings,
         )
         if inputs.model is not None and os.path.isfile(inputs.model):
-            # A program may go to another folder.
+            # A program may change its working directory.
             model, study = inputs.model.absolute(), options.study
             self.server.sessions.model_files = ModelFiles(
                 model,
@@ -122,7 +122,7 @@ class ShownInputs:
         """Show the robot, and follow the files if the options say so.
 
         Raises:
-            RobotError: the model cannot be shown; the server is stopped then.
+            RobotError: the model cannot be shown; the server has stopped.
         """
         inputs, clients = self._inputs, self.server.clients
         try:
@@ -133,7 +133,8 @@ class ShownInputs:
                 self._show(inputs.robot())
             clients.show_panels()
             self._show_reference()
-            # Beside a live robot a model of its own is followed, else what that says.
+            # A given model is followed beside a live robot, too; without one, the
+            # description of the live robot is.
             is_own = inputs.live is None or inputs.model is not None
             if inputs.options.watch and is_own:
                 self._follow(refusal)
@@ -153,17 +154,17 @@ class ShownInputs:
         self._recordings.open(self.server.sessions, path, source)
 
     def stop(self) -> None:
-        """Stop the server and free the port; a second call does nothing."""
+        """Stop the server and free the port; further calls do nothing."""
         if self._reloader is not None:
             self._reloader.close()
         if self._live_model is not None:
             self._live_model.close()
-        # Sessions read the sources until they have ended.
+        # Sessions read the sources until they end.
         self.server.stop()
         self._inputs.close()
 
     def _show(self, robot: Robot) -> None:
-        """Show a robot; the bundled config, which is sam_bot's, fits the first one."""
+        """Show a robot; fit the bundled config, made for sam_bot, to the first one."""
         sessions, moved_by = self.server.sessions, self._inputs.moved_by
         if sessions.robot is None and self._stand_in is self.configs.current:
             self._fit_fixed_frame(self.configs.current, robot, moved_by)
@@ -175,10 +176,10 @@ class ShownInputs:
         sessions.show_robot(robot)
 
     def _show_reference(self) -> None:
-        """Read the reference, and let all sessions compare theirs with it.
+        """Read the reference, and compare all sessions with it.
 
         Raises:
-            RobotError: it cannot be shown, and what is opened may not be broken.
+            RobotError: the reference cannot be shown, and inputs may not be broken.
         """
         sessions = self.server.sessions
         if (reference := sessions.reference) is None:
@@ -190,7 +191,7 @@ class ShownInputs:
         sessions.show_reference()
 
     def _first_config(self, moved_by: SourceRobot, robot: Robot | None) -> RvizConfig:
-        """Return the config that comes with the program, for other sources."""
+        """Return the bundled config, fitted to other sources."""
         document = bundled_config()
         _set_fixed_frame(document, self._inputs.options.fixed_frame)
         self._show_data(document, moved_by)
@@ -200,7 +201,7 @@ class ShownInputs:
         return document
 
     def _follow_live(self, live: SourceRobot) -> None:
-        """Connect to a live robot, and show it as it describes itself."""
+        """Connect to a live robot, and show it by its own description."""
         show = self._show_live if self._inputs.options.model is None else None
         load, refuse = self._inputs.load_described, self._refuse_live
         self._live_model = LiveModel(live, load, show, refuse)
@@ -212,7 +213,7 @@ class ShownInputs:
         live.source.open()
 
     def _show_data(self, document: RvizConfig, moved_by: SourceRobot) -> None:
-        """Show what the sources have, in the config that comes with the program."""
+        """Show the data of the sources in the bundled config."""
         points_of = moved_by.first_messages.points_of
         robots = moved_by.topics.descriptions
         show_topics(document, moved_by.types, points_of, robots, moved_by.loose)
@@ -224,11 +225,11 @@ class ShownInputs:
     def _take_frame(
         self, shown: ShownDocument, history: History, live: SourceRobot
     ) -> None:
-        """Show the frames of a live robot that does not say what it looks like."""
+        """Show the frames of a live robot that sends no description."""
         top, document = live.top_of_frames(), shown.config
         fixed = document.global_options.get("Fixed Frame")
         if live.topics.description is None and top and fixed == STAND_IN_LINK:
-            # No user has done that, and none is to undo it.
+            # The program does this, not a user, so no user should undo it.
             with history.unrecorded():
                 shown.set_option("Fixed Frame", top)
             if self._inputs.options.model is None:
@@ -236,13 +237,13 @@ class ShownInputs:
                 shown.show()
 
     def _post_data(self, live: SourceRobot) -> None:
-        """Let all sessions show what a live robot has; in the thread of the source."""
+        """Show a live robot's data in all sessions; runs in the source's thread."""
         if self._stand_in is not self.configs.current:
             return
         for session in self.server.sessions.all():
             show = partial(self._show_live_data, session.document, live)
             session.worker.post(show)
-            # Its transforms say which frame is at the top, and come a little later.
+            # Its transforms, which reveal the top frame, come a little later.
             take_frame = partial(
                 self._take_frame, session.document, session.history, live
             )
@@ -255,7 +256,7 @@ class ShownInputs:
             shown.show()
 
     def _load_described(self, described: Description) -> Robot:
-        """Load the robot of a topic that is not the opened one."""
+        """Load the robot on a topic that is not the opened one."""
         text = described.text or ""
         if self._live_model is not None:
             return self._live_model.load(text, described.label)
@@ -268,7 +269,7 @@ class ShownInputs:
         live = self._inputs.live
         topics = RobotTopics() if live is None else live.topics
         sessions.set_reload_problems("model", (*missing, *self._start_problems(robot)))
-        # One that describes itself again leaves what users have chosen since.
+        # A repeated description of the same robot keeps the users' choices.
         is_another, self._ends_of_live = (root, top) != self._ends_of_live, (root, top)
         if is_another and self._stand_in is self.configs.current:
             for session in sessions.all():
@@ -280,13 +281,13 @@ class ShownInputs:
             self._fit_live(self.configs.current, robot, top, root)
             _name_description(self.configs.current, topics)
         sessions.show_robot(robot)
-        # Pages that were opened before it came look at where nothing was.
+        # Pages opened before the robot came look at an empty place.
         for session in sessions.all() if is_another else ():
             with session.change():
                 session.clients.show_first_view()
 
     def _start_problems(self, robot: Robot) -> tuple[Problem, ...]:
-        """Say which joints of the command line a live robot does not have."""
+        """Report joints of the command line that a live robot does not have."""
         try:
             self._inputs.options.start_pose.state(robot)
         except JointError as error:
@@ -314,7 +315,7 @@ class ShownInputs:
     def _fit_fixed_frame(
         self, document: RvizConfig, robot: Robot, moved_by: SourceRobot | None
     ) -> None:
-        """Take the root of a robot as the fixed frame, unless a user has chosen one."""
+        """Make the root of a robot the fixed frame, unless a user has chosen one."""
         if document.global_options.get("Fixed Frame") == self._stand_in_frame:
             fit_own_config(document, robot)
             if moved_by is not None and moved_by.can("seek"):
@@ -325,17 +326,17 @@ class ShownInputs:
             self._assume_frame(document, moved_by)
 
     def _assume_frame(self, document: RvizConfig, moved_by: SourceRobot | None) -> None:
-        """Note the frame of the config that comes with the program: no user's wish."""
-        # Of a live robot data are waited for.
+        """Mark the fixed frame of the bundled config as not chosen by a user."""
+        # The data of a live robot come later.
         is_whole = moved_by is None or moved_by.can("seek")
         is_asked = self._inputs.options.fixed_frame is not None
         if self._stand_in is not None and is_whole and not is_asked:
             document.assumed_frame = str(document.global_options.get("Fixed Frame"))
 
     def _follow(self, refusal: RobotError | None) -> None:
-        """Show the files again when they are saved."""
+        """Show the files again after each save."""
         inputs = self._inputs
-        # A program may go to another folder.
+        # A program may change its working directory.
         model = None if inputs.model is None else inputs.model.absolute()
         sources = Sources(model, inputs.load, self._show, self.configs, inputs.opened)
         reloader = Reloader(self.server.sessions, sources, inputs.options.on_reload)
@@ -348,16 +349,16 @@ class ShownInputs:
 
 
 def _show_motion(document: RvizConfig, robot: Robot, top: str, root: str) -> None:
-    """Let a robot that moves in a frame be seen to move, and not leave the picture."""
+    """Show a robot's motion in a frame without letting it leave the picture."""
     document.global_options.set("Fixed Frame", top)
-    # Without a robot a map stands still, and what moves beside it is seen to move.
+    # Without a robot, a map stays fixed, and moving data beside it shows the motion.
     has_map = any(is_map(display) for display in document.displays)
     if top != root and not (has_map and robot.name == STAND_IN_NAME):
         document.view.set("Target Frame", root)
 
 
 def _without_robot(document: RvizConfig) -> list[DisplayConfig]:
-    """Switch off what shows a robot that is not there, and nobody has asked for."""
+    """Switch off displays of a robot that is missing and that no user has chosen."""
     shown = [
         display
         for display in document.displays
@@ -369,9 +370,10 @@ def _without_robot(document: RvizConfig) -> list[DisplayConfig]:
 
 
 def _name_description(document: RvizConfig, topics: RobotTopics) -> None:
-    """Name the topic of a robot in a config that was made for one without a namespace.
+    """Set a robot's description topic in a config for a robot without a namespace.
 
-    Where that robot is there too, or a user has chosen a topic, nothing changes.
+    Nothing changes if a robot without a namespace exists too, or a user has chosen a
+    topic.
     """
     name = topics.description
     for display in document.displays:

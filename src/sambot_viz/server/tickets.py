@@ -1,9 +1,9 @@
 """Joins the two connections of each page, viser's and the page's own, by a ticket.
 
-A page makes a ticket when it is loaded and names it in the addresses of both
-(``?ticket=``); so the two are known to be one client. A ticket that is in use is
-refused: two pages with one ticket do not mix, and a viewer gets nothing by that of the
-presenter.
+A page makes a ticket when it loads and puts it in the addresses of both connections
+(``?ticket=``), so the server knows that they belong to one client. The server refuses a
+ticket in use: two pages with one ticket do not mix, and a viewer gains nothing with
+the presenter's ticket.
 """
 
 from __future__ import annotations
@@ -28,19 +28,19 @@ from sambot_viz.server.protection.inbound_filter import (
 )
 
 ANSWER_TIME = 2.0
-"""Who has a ticket, and does not answer for so long, is gone [s]."""
+"""The holder of a ticket is gone if it does not answer within this time [s]."""
 WAIT_FOR_CLIENT = 30.0
-"""A channel whose page has no connection to viser is closed after so long [s]."""
+"""The server closes a channel whose page has no connection to viser by then [s]."""
 CLIENT_LEFT = 4001
-"""The channel is closed because the page's connection to viser has ended."""
+"""The server closes the channel because the connection to viser has ended."""
 PAGE_LEFT = 4002
-"""The page closes its channel for good: it is not shown any more."""
+"""The page closes its channel and will not return."""
 REMOVED = 4003
-"""The presenter has closed the page, which is not to come back by itself."""
+"""The presenter has closed the page, which must not reconnect by itself."""
 _ANY_CLIENT = -1
-"""Stands for the number of a client where all have the same rows."""
+"""Takes the place of a client's number where all clients have the same rows."""
 SERVER_STOPS = 1012
-"""The server stops, perhaps to be started again; the code of RFC 6455 for that."""
+"""The server stops and may start again; RFC 6455 defines this code."""
 _MOST_REMOVED = 1000
 """Maximum number of removed pages remembered."""
 
@@ -49,11 +49,10 @@ class Channels:
     """Joins the two connections of each page by their tickets.
 
     Attributes:
-        handler: has the rows, and takes the edits.
+        handler: provides the rows, and receives the edits.
         serve_viser: serves a connection to viser until it ends.
-        rows_of_all: what every page is sent, so that it does not matter with which
-            server its connection to viser is; None where each page has rows of its
-            client.
+        rows_of_all: rows that every page gets, whichever server its connection to viser
+            belongs to; None where each page has the rows of its client.
     """
 
     serve_viser: Callable[[Connection], Awaitable[None]]
@@ -70,7 +69,7 @@ class Channels:
     def claim(
         self, connection: Connection
     ) -> Response | Awaitable[Response | None] | None:
-        """Give a new connection its ticket; returns a refusal when it is in use."""
+        """Give a new connection its ticket; return a refusal if it is in use."""
         context = connection.context
         if not context.ticket:
             return _in_use() if context.channel else None
@@ -87,15 +86,15 @@ class Channels:
     async def _take_over(
         self, connection: Connection, holder: Connection
     ) -> Response | None:
-        """Give a ticket to a page that has lost its connection without a word.
+        """Give a ticket to a page whose connection was lost without notice.
 
-        After a change of networks, the server may believe for a minute that the old
-        connection is there.
+        After a change of networks, the server may take the old connection for alive
+        for a minute.
         """
         alive = await holder.answers(ANSWER_TIME)
         holders, ticket = self._holders(connection), connection.context.ticket
-        # Another one may have taken it meanwhile, and this one may have left: nothing
-        # would take the ticket from it.
+        # Another page may have taken the ticket meanwhile, or this page may have left,
+        # and then no event would release the ticket.
         taken = holders.get(ticket, holder) is not holder
         if alive or taken or connection.state is State.CLOSED:
             return _in_use()
@@ -104,7 +103,7 @@ class Channels:
         return None
 
     def _is_of_another(self, channel: Connection) -> bool:
-        """Whether the client with the ticket of a channel has another role."""
+        """Return whether the client with a channel's ticket has another role."""
         context, client = channel.context, self._clients.get(channel.context.ticket)
         return client is not None and (
             (client.context.presenter, client.context.copy)
@@ -128,20 +127,20 @@ class Channels:
 
     def _client_left(self, client: Connection) -> None:
         if client.removed:
-            # viser's part of the page would come back at once.
+            # viser's part of the page would reconnect at once.
             self._removed.append(client.context.ticket)
         channel = self._channels.get(client.context.ticket)
-        # One that waits for the next connection of its page goes on waiting.
+        # A channel that waits for the next connection of its page continues to wait.
         if channel is not None and channel.client is client:
             code = REMOVED if client.removed else CLIENT_LEFT
             closing = channel.close(code, "the connection to viser has ended")
-            # The loop itself keeps no reference to a task.
+            # The loop itself holds no reference to a task.
             task = asyncio.get_running_loop().create_task(closing)
             self._closing.add(task)
             task.add_done_callback(self._closing.discard)
 
     async def tell_stop(self) -> None:
-        """Tell all pages that the server stops: they hold back edits from then on."""
+        """Notify all pages that the server stops: they hold back edits from then on."""
         closing = [
             channel.close(SERVER_STOPS, "the server stops")
             for channel in self._channels.values()
@@ -149,17 +148,17 @@ class Channels:
         await asyncio.gather(*closing, return_exceptions=True)
 
     def tell_joined(self) -> None:
-        """Let channels look again whether their clients have rows; on the loop."""
-        # Who waits is woken by `set` alone, and waits again when it was not for him.
+        """Wake channels to check whether their clients have rows; on the loop."""
+        # `set` alone wakes the waiters; a waiter without rows waits again.
         self._changed.set()
         self._changed.clear()
 
     async def joined(self) -> None:
-        """Wait until clients may have rows that had none; on the loop."""
+        """Wait until more clients may have rows; on the loop."""
         await self._changed.wait()
 
     async def serve(self, connection: Connection) -> None:
-        """Serve the channel of one page, until it ends."""
+        """Serve the channel of a page until it ends."""
         connection.writer.prepare()
         connection.close_timeout = CLOSE_TIME
         channel = Channel(connection, lambda: self.handler)
@@ -181,7 +180,7 @@ class Channels:
                 await client.close()
 
     async def _write(self, channel: Channel) -> None:
-        """Write to a channel, as soon as its client has rows."""
+        """Write to a channel once its client has rows."""
         connection = channel.connection
         if self.rows_of_all is not None:
             await channel.write(_ANY_CLIENT, self.rows_of_all)
@@ -197,22 +196,22 @@ class Channels:
         ticket, first = connection.context.ticket, True
         while True:
             if self._is_of_another(connection):
-                # It was there before this client, too early to be refused.
+                # The channel came before this client, too early for a refusal.
                 raise TimeoutError
             client = self._clients.get(ticket)
             rows = None
             if client is not None and client.client_id is not None:
                 rows = self.handler.rows_of(client.client_id)
             if client is not None and rows is not None:
-                # A page that comes again has perhaps lost both connections.
+                # A returning page may have lost both connections.
                 if first and not await client.answers(ANSWER_TIME):
                     client.transport.abort()
                     client.on_lost()
                 elif self._clients.get(ticket) is client:
-                    # Not later: from here on the channel ends when its client leaves.
+                    # Set now: from here on the channel ends when its client leaves.
                     connection.client, connection.rate = client, client.rate
                     return client, rows
-                # Another client may have joined while this one was asked.
+                # Another client may have joined while this one answered.
                 first = False
                 continue
             first = False

@@ -1,12 +1,12 @@
-"""Noticing that files were saved.
+"""Notices saved files.
 
-One thread looks at the files when the system says that something happened in their
-folders, and once a second in any case: that finds what the system does not report
-(network drives, a link that points elsewhere, a folder that was created again), and
-takes over when the system cannot watch at all. What counts is the state of the files:
-how an editor saves, in place, by renaming or in two steps, makes no difference. An
-error, of the file system or of a callback, is logged; the watching goes on. Which files
-count is asked only after it may have changed, so that a look costs what it looks at.
+One thread looks at the files when the system reports a change in their folders, and
+once a second in any case. The regular look finds changes that the system does not
+report (network drives, a link with a new target, a folder that was created again), and
+takes over when the system cannot watch at all. Only the state of the files counts, so
+it makes no difference whether an editor saves in place, by renaming or in two steps.
+Errors of the file system or of a callback are logged, and the watching continues. The
+thread asks for the list of files only after it may have changed, to keep a look cheap.
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ from sambot_viz.files import Stamp, stamp
 from sambot_viz.outlet import logger
 
 QUIET = 30
-"""Changes are looked at when nothing more has come for this long [ms] …"""
+"""The thread looks at changes after a pause of this length [ms] …"""
 LONGEST_WAIT = 200
-"""… and after this long in any case [ms]."""
+"""… and after this time in any case [ms]."""
 LOOK_PERIOD = 1.0
-"""How often the files are looked at when nothing was reported [s]."""
+"""Time between two looks without a reported change [s]."""
 SETTLE = 0.3
-"""A file that is gone or empty is given this long to come back [s]: some editors empty
-or remove the old file before they write the new one."""
+"""Time that a missing or empty file has to come back [s]: some editors empty or remove
+the old file before they write the new one."""
 _RETRY = 0.02
 _LONGEST_CLOSE = 5.0
 _CLOCK_STEP = 10_000_000
-"""Times of files may be this much [ns] behind the clock."""
+"""Longest delay of file times behind the clock [ns]."""
 _TOLD_LATE = 2_000_000_000
-"""That a file counts is told at most this long [ns] after it was read: it is drawn
-first."""
+"""Longest time from the read of a file to the notice that it counts [ns]; the file is
+drawn in between."""
 
 _log = logger(__name__)
 
@@ -49,7 +49,7 @@ OnChange = Callable[[frozenset[Path], frozenset[Path]], None]
 
 @dataclass(frozen=True, slots=True)
 class Watched:
-    """What is watched.
+    """The watched files.
 
     Attributes:
         files: the files that count.
@@ -64,12 +64,11 @@ class FileWatcher:
     """Calls back when files change.
 
     Args:
-        watched: what counts; asked again after `ask_again`.
-        on_change: takes the files that have changed, and everything that has newly
-            appeared in the folders; it runs in the watcher's thread, one call at a
-            time.
+        watched: returns the files that count; called again after `ask_again`.
+        on_change: receives the changed files, and everything new in the folders; runs
+            in the watcher's thread, one call at a time.
         on_trouble: called once, with the reason, when the system cannot watch.
-        since: files that were saved after this time [ns] count as changed; default now.
+        since: saves after this time [ns] count as changes; default now.
     """
 
     def __init__(
@@ -93,26 +92,26 @@ class FileWatcher:
         )
 
     def start(self) -> None:
-        """Watch from now on; what was saved before, since `since`, is found too."""
+        """Start watching; find saves between `since` and now, too."""
         self._thread.start()
 
     def ask_again(self) -> None:
-        """Ask which files count, at the next look; any thread may call this.
+        """Ask again which files count, at the next look; any thread may call this.
 
-        Call it when a file counts, not before.
+        Call it once a file counts, not before.
         """
         if self._asked_at is None:
             self._asked_at = time.time_ns()
 
     def close(self) -> None:
-        """Stop watching, and wait a few seconds for a callback that is running."""
+        """Stop watching, and wait a few seconds for a running callback."""
         self._stop.set()
         if threading.current_thread() is not self._thread:
             self._thread.join(_LONGEST_CLOSE)
 
     @property
     def closed(self) -> bool:
-        """Whether watching has been stopped."""
+        """Return whether watching has stopped."""
         return self._stop.is_set()
 
     def _run(self) -> None:
@@ -127,14 +126,14 @@ class FileWatcher:
                 system_watches = False
                 self._on_trouble(str(error))
             except Exception as error:
-                # Without this thread no save is shown any more.
+                # Without this thread, the program would miss every save.
                 if repr(error) != reported:
                     reported = repr(error)
                     _log.exception("error while watching the files")
                 self._stop.wait(LOOK_PERIOD)
 
     def _watch(self, folders: Mapping[Path, int]) -> None:
-        """Watch these folders until others are to be watched."""
+        """Watch these folders until the set of folders changes."""
         self._look(frozenset())
         changes = watch(
             *folders,
@@ -155,12 +154,12 @@ class FileWatcher:
                 return
 
     def _look(self, appeared: frozenset[Path]) -> None:
-        """Compare the files with what they were, and call back if they differ."""
+        """Compare the files with their previous state, and call back on a change."""
         if self._asked_at is not None:
             self._list(min(self._looked, self._asked_at - _TOLD_LATE))
         before, self._known = self._known, self._settled_stamps()
-        # A save may put another file in the place of one that was there; what it is
-        # written into until then has a hidden name.
+        # A save may replace an existing file with a new one; editors write that under
+        # a hidden name first.
         appeared = frozenset(
             path
             for path in appeared
@@ -171,12 +170,12 @@ class FileWatcher:
         if (changed or appeared) and not self._stop.is_set():
             self._on_change(changed, appeared)
             if self._asked_at is not None:
-                # All that was read meanwhile was read after this look.
+                # All files read meanwhile were read after this look.
                 self._list(self._looked)
 
     def _list(self, since: int) -> None:
         """Ask which files count; new ones saved since a time [ns] have changed."""
-        # What is told from here on may come too late for this answer.
+        # A later request may come too late for this answer.
         asked_at, self._asked_at = self._asked_at, None
         try:
             self._watched = self._ask()
@@ -197,7 +196,7 @@ class FileWatcher:
         """Look at the files, and again while one has just become empty or vanished."""
         end = time.monotonic() + SETTLE
         full = [path for path, was in self._known.items() if not _is_empty(was)]
-        # What is reported is what was looked at: a file may be emptied at any moment.
+        # Report only states that were seen: a file may become empty at any moment.
         found = self._stamps()
         while any(path in found and _is_empty(found[path]) for path in full):
             if time.monotonic() >= end or self._stop.wait(_RETRY):
@@ -209,20 +208,20 @@ class FileWatcher:
         return {path: stamp(path) for path in self._watched.files}
 
     def _folders(self) -> dict[Path, int]:
-        """The folders to watch, with their numbers: a new one has another number."""
+        """Return the folders to watch, with numbers that differ for new folders."""
         model = self._watched.package_of
         wanted = dict.fromkeys(() if model is None else _folders_of_package(model))
         for path in self._watched.files:
             wanted[path.parent] = None
             if os.path.islink(path):
-                # A save is reported where the file is, a new link where the link is.
+                # Systems report a save at the file, and a new link at the link.
                 wanted[Path(os.path.realpath(path)).parent] = None
         found = {folder: stamp(folder) for folder in wanted}
         return {folder: now[2] for folder, now in found.items() if now is not None}
 
 
 class _CannotWatchError(Exception):
-    """The system does not watch, for example because too much is watched already."""
+    """The system does not watch, for example because it watches too much already."""
 
 
 def _batches(changes: Iterator[_Changes]) -> Iterator[_Changes]:
@@ -237,14 +236,14 @@ def _batches(changes: Iterator[_Changes]) -> Iterator[_Changes]:
             return
         except (OSError, RuntimeError) as error:
             if "decode path" in str(error):
-                # The name of a file is not text; watching begins again.
+                # The name of a file is not text; the watching starts again.
                 return
             raise _CannotWatchError(str(error)) from error
         yield reported
 
 
 def _folders_of_package(file: Path) -> list[Path]:
-    """Return the package of a file, with its folders; nothing without a package."""
+    """Return the folders of a file's package; empty without a package."""
     for folder in Path(os.path.realpath(file)).parents:
         if os.path.isfile(folder / "package.xml"):
             return list(_folders_in(folder))
@@ -252,7 +251,7 @@ def _folders_of_package(file: Path) -> list[Path]:
 
 
 def _folders_in(folder: Path) -> Iterator[Path]:
-    """Yield a folder and those below it without hidden ones, the nearest first."""
+    """Yield a folder and its subfolders, nearest first, without hidden ones."""
     pending, count = [folder], 0
     while pending and count < limits.WATCHED_FOLDERS.value:
         folder = pending.pop(0)
@@ -266,5 +265,5 @@ def _folders_in(folder: Path) -> Iterator[Path]:
 
 
 def _is_empty(found: Stamp | None) -> bool:
-    """Whether a file is missing or empty."""
+    """Return whether a file is missing or empty."""
     return found is None or found[1] == 0

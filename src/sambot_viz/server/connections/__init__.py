@@ -1,1 +1,1 @@
-"""Keep the connections of clients: their limits, and how fast each reads."""
+"""Manage the connections of clients: their limits, and backpressure."""

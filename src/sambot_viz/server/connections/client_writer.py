@@ -14,19 +14,19 @@ from websockets.asyncio.server import ServerConnection
 from sambot_viz.server.connections.traffic import Traffic
 
 PIECE = 128 * 1024
-"""A longer message is sent in pieces: so much of it is copied at a time [bytes]."""
+"""Size of the pieces of a longer message [bytes]; one piece is copied at a time."""
 STALL_PERIOD = 10.0
-"""A client that hardly reads is disconnected after one to two of these [s]."""
+"""A client that hardly reads is disconnected after one to two periods [s]."""
 SLOWEST = 1000.0
-"""A slower client hardly reads [bytes/s]."""
+"""A client below this speed hardly reads [bytes/s]."""
 
 
 class ClientWriter:
     """Send to one client.
 
     Args:
-        connection: of the client.
-        traffic: counts what is sent to all clients.
+        connection: connection of the client.
+        traffic: counts messages to all clients.
     """
 
     def __init__(
@@ -38,20 +38,20 @@ class ClientWriter:
         self._sends_since = math.inf
 
     def waits(self) -> float:
-        """Return for how long the client has not taken a message [s]."""
+        """Return how long a message has been waiting for the client [s]."""
         return max(0.0, time.monotonic() - self._sends_since)
 
     def prepare(self) -> None:
-        """Have the system take no more than a piece that the line cannot take yet.
+        """Limit the system's send buffer to one piece.
 
-        It takes megabytes otherwise. On a slow line a question whether the client is
-        still there then waits behind them for longer than the answer is waited for, and
-        nothing seems to move for as long.
+        By default it holds megabytes. On a slow line, a ping would wait behind them for
+        longer than the server waits for its answer, and the picture would seem frozen
+        for as long.
         """
         line = self._connection.transport.get_extra_info("socket")
         option = getattr(socket, "TCP_NOTSENT_LOWAT", None)
         if option is not None and line.family in (socket.AF_INET, socket.AF_INET6):
-            # A client that has left already has closed it.
+            # A client that has left has closed its socket.
             with suppress(OSError):
                 line.setsockopt(socket.IPPROTO_TCP, option, PIECE)
 
@@ -59,7 +59,7 @@ class ClientWriter:
         """Send a message; disconnect a client that does not take it.
 
         Args:
-            message: bytes, or a text that is shorter than a piece.
+            message: bytes, or a text shorter than a piece.
         """
         timer = StallTimer(self)
         self._traffic.frames += 1
@@ -84,11 +84,11 @@ class ClientWriter:
             piece = view[start : start + PIECE]
             self._count(len(piece))
             yield piece
-            # A client that reads at once would keep all others waiting.
+            # Otherwise a client that reads at once would block all others.
             await asyncio.sleep(0)
 
     def taken(self) -> int:
-        """Return how much the client has taken since it came [bytes]."""
+        """Return how much the client has taken since it connected [bytes]."""
         return self._given - self._connection.transport.get_write_buffer_size()
 
     def abort(self) -> None:
@@ -97,10 +97,10 @@ class ClientWriter:
 
 
 class StallTimer:
-    """Disconnect a client that hardly reads, while something is sent to it.
+    """Disconnect a client that hardly reads during a transfer.
 
     Args:
-        writer: sends to it.
+        writer: sends to the client.
     """
 
     def __init__(self, writer: ClientWriter) -> None:
@@ -120,5 +120,5 @@ class StallTimer:
             self._start()
 
     def cancel(self) -> None:
-        """Stop: everything was sent."""
+        """Stop: the transfer is complete."""
         self._timer.cancel()

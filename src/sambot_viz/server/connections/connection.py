@@ -1,4 +1,4 @@
-"""One websocket of a client, with all that this server keeps of it."""
+"""A client's websocket, with all state that this server holds for it."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ from sambot_viz.server.connections.rate_limit import TokenBucket
 from sambot_viz.server.connections.traffic import Traffic
 
 BURST = 600.0
-"""How many messages may come at once."""
+"""Number of messages that may come at once."""
 SMALL_FRAME = 1000
-"""The size of larger parts is limited with that of their message [bytes]."""
+"""Smaller frames have a rate limit; larger ones count as part of a message [bytes]."""
 SMALL_FRAMES_PER_SECOND = 10.0
-"""The answers to the pings of the server itself are three in a minute."""
+"""The server's own pings cause three answers a minute."""
 SMALL_FRAMES_AT_ONCE = 100.0
 
 
 @dataclass(frozen=True, slots=True)
 class ClientContext:
-    """What the request for a connection says of its client.
+    """Facts about a client from the request for its connection.
 
     Attributes:
-        presenter: whether it was opened by the presenter's link.
-        copy: whether it is to show a private copy of the shared session.
-        ticket: which page it belongs to; "" for a program that has sent none.
-        channel: whether it is a page's channel, and not viser's connection.
-        login: the name by which a trusted proxy knows the user; "" without one.
-        follows: whether it stands for all who look at followers of this server.
+        presenter: whether it used the presenter's link.
+        copy: whether it asks for a private copy of the shared session.
+        ticket: ticket of its page; "" for a program without one.
+        channel: whether it is a page's channel, not viser's connection.
+        login: user name from a trusted proxy; "" without one.
+        follows: whether it represents all viewers at followers of this server.
     """
 
     presenter: bool = False
@@ -50,18 +50,18 @@ class ClientContext:
 
 
 class Connection(ServerConnection):
-    """A connection that is counted, reads through a filter and writes in pieces.
+    """A connection with a count, an inbound filter and writes in pieces.
 
     Args:
-        limiter: counts it; one too many is closed at once.
-        traffic: counts what is sent to it.
+        limiter: counts the connection; one too many closes at once.
+        traffic: counts messages to the client.
 
     Attributes:
-        context: what its request has said.
+        context: facts from its request.
         writer: sends to it.
-        rate: limits what it sends; a page's channel has that of its client.
-        read: reads the next message that may be handled; the inbound filter when
-            there is one.
+        rate: limits its messages; a page's channel shares its client's limit.
+        read: reads the next message that may be handled; the inbound filter if there
+            is one.
         client_id: viser's number of the client; None for a channel.
         client: for a channel, the connection to viser of the same page.
         on_lost: called when the connection has ended.
@@ -89,11 +89,11 @@ class Connection(ServerConnection):
         self._limit_small_frames()
 
     def _limit_small_frames(self) -> None:
-        """End a connection that floods the server below what is counted as messages.
+        """End a connection that floods the server below the level of messages.
 
         The websockets library answers a ping as soon as it arrives, however many
-        answers wait to be read, and collects the parts of a message, however many of
-        them are empty. Browsers send neither pings nor messages in small parts.
+        answers wait, and collects the parts of a message, even if they are all empty.
+        Browsers send neither pings nor messages in small parts.
         """
         take = self.protocol.recv_frame
         rate = TokenBucket(SMALL_FRAMES_PER_SECOND, SMALL_FRAMES_AT_ONCE)
@@ -107,15 +107,15 @@ class Connection(ServerConnection):
         self.protocol.recv_frame = recv_frame  # type: ignore[method-assign]
 
     async def recv(self, decode: bool | None = None) -> Any:
-        """Return the next message; viser calls it, and gets what has passed `read`."""
+        """Return the next message that passes `read`; viser calls this."""
         return await self.read()
 
     async def receive(self) -> Data:
-        """Return the next message, whatever it is."""
+        """Return the next message without a filter."""
         return await super().recv()
 
     async def answers(self, timeout: float) -> bool:
-        """Return whether the other side answers a ping in time [s], or reads on."""
+        """Return whether the client answers a ping in time [s], or keeps reading."""
         if self.state is State.CONNECTING:
             return True
 
@@ -128,7 +128,7 @@ class Connection(ServerConnection):
         except ConnectionClosed:
             return False
         except asyncio.TimeoutError:
-            # On a slow line the ping waits behind what is sent.
+            # On a slow line the ping waits behind other messages.
             return self.writer.taken() > taken
         return True
 
@@ -140,7 +140,7 @@ class Connection(ServerConnection):
             self.transport.abort()
 
     def data_received(self, data: bytes) -> None:
-        """Read on, but not for ever from one that was told to close."""
+        """Read on, but not forever from a connection that must close."""
         end = self.close_deadline
         if end is not None and self.loop.time() > end:
             self.transport.abort()
@@ -148,7 +148,7 @@ class Connection(ServerConnection):
             super().data_received(data)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Make place for another one."""
+        """Make room for another connection."""
         self._limiter.lost(self)
         self._traffic.clients.discard(self.writer)
         self.on_lost()

@@ -1,11 +1,10 @@
 """Limit the number of open pages and connections.
 
-Every page costs memory, every connection a file number of the system. A page too many
-says so, and loads again by itself when another one was closed.
+Every page costs memory, and every connection a file descriptor. A page too many says
+so, and reloads by itself after another one has closed.
 
-What stays weak: whoever may use the server can also take all its places. Places are not
-counted by address, because all who come through a proxy, or from one school, have the
-same one.
+One weakness remains: a user of the server can take all its places. Limits per address
+would not help, because all users behind one proxy, or in one school, share an address.
 """
 
 from __future__ import annotations
@@ -19,10 +18,10 @@ from sambot_viz import limits
 from sambot_viz.server.connections.page_files import plain_page
 
 _OWN_FILES = 400
-"""Of the system's file numbers, so many are left: for files, and for connections that
-the event loop accepts, 100 at a time, before they are counted."""
+"""File descriptors that stay free: for files, and for connections that the event loop
+accepts, 100 at a time, before this limit counts them."""
 _AGAIN = 10
-"""A page that found no place loads again after so long [s]."""
+"""Time after which a page that found no place reloads [s]."""
 
 
 class ConnectionLimiter:
@@ -34,7 +33,7 @@ class ConnectionLimiter:
         self._open: set[ServerConnection] = set()
 
     def admit(self, connection: ServerConnection) -> bool:
-        """Count a connection; returns whether it may stay."""
+        """Count a connection, and return whether it may stay."""
         self._open.add(connection)
         return len(self._open) <= self._most
 
@@ -43,7 +42,7 @@ class ConnectionLimiter:
         self._open.discard(connection)
 
     def is_full(self, pages: int) -> bool:
-        """Return whether so many pages are open that one more has no place."""
+        """Return whether one more page would exceed the limit."""
         return pages >= limits.PAGES.value
 
     def refusal(self) -> Response:
@@ -58,7 +57,7 @@ class ConnectionLimiter:
 
 
 def _file_numbers() -> int:
-    """Return how many files and connections the system lets this program have."""
+    """Return how many files and connections the system allows this program."""
     try:
         import resource
     except ImportError:

@@ -1,4 +1,4 @@
-"""Answer requests for the page, which is that of viser with our scripts in it."""
+"""Answer requests for the page: viser's page with our scripts in it."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from sambot_viz import page
 from sambot_viz.server.connections.viser_page import ViserPage, taken_apart
 
 VISER_PROTOCOL = f"viser-v{viser.__version__}"
-"""What a client of viser asks for when it opens its connection."""
+"""Subprotocol that a client of viser requests when it connects."""
 NO_VIEW = ("view", "none")
-"""In the query of an address: a page without a view."""
+"""Part of an address's query that asks for a page without a view."""
 Parts = Literal["all", "view", "window"]
-"""What a page has: the view in a window, the view alone, or a window without it."""
+"""Parts of a page: the view in a window, the view alone, or a window without it."""
 _FOLDER = "sambot/"
-"""Where the files beside the page are."""
+"""Folder of the files beside the page."""
 LICENSES = f"/{_FOLDER}licenses.txt"
-"""Where the licences of the libraries in the page are."""
+"""Path of the licences of the page's libraries."""
 CODEMIRROR = f"/{_FOLDER}codemirror.js"
-"""Where the editor is, which no page asks for before its panel is opened."""
+"""Path of the editor, which a page requests when its panel opens."""
 _PLAIN_PAGE = """\
 <!doctype html><meta charset="utf-8">
 <meta name="viewport" content="width=device-width"><title>sambot-viz</title>
@@ -51,12 +51,12 @@ def prepare(panels: bool = True, look: str | None = None) -> None:
 def answer(
     request: Request, panels: bool = True, look: str | None = None
 ) -> Response | None:
-    """The response to a request for the page or its licences; None for all others.
+    """Return the answer to a request for the page or its licences; None for others.
 
     Args:
         request: the request.
-        panels: whether the program has panels round its view.
-        look: how a page draws that has chosen nothing; None is RViz's.
+        panels: whether the program has panels around its view.
+        look: look of a page whose user has chosen none; None is RViz's.
     """
     if is_websocket(request):
         return None
@@ -76,7 +76,7 @@ def answer(
 
 
 def _codemirror(request: Request) -> Response:
-    """The editor: its name is the same in all versions."""
+    """Return the editor, whose name is the same in all versions."""
     tag = _tag_of(page.codemirror())
     return _kept(request, "text/javascript", tag, page.codemirror)
 
@@ -84,7 +84,7 @@ def _codemirror(request: Request) -> Response:
 def _kept(
     request: Request, kind: str, tag: str, content: Callable[[], bytes]
 ) -> Response:
-    """Return a file that a browser keeps, and asks for whether it has changed."""
+    """Return a file that a browser stores, and revalidates at each use."""
     headers = Headers({"Content-Type": f"{kind}; charset=utf-8", "ETag": tag})
     headers["Cache-Control"] = "no-cache"
     headers["Vary"] = "Accept-Encoding"
@@ -94,7 +94,7 @@ def _kept(
 
 
 def _script(request: Request, content: bytes) -> Response:
-    """Viser's script: what has another content has another name."""
+    """Return viser's script; its name changes with its content."""
     headers = Headers({"Content-Type": "text/javascript; charset=utf-8"})
     headers["Cache-Control"] = "private, max-age=31536000, immutable"
     headers["Vary"] = "Accept-Encoding"
@@ -102,7 +102,7 @@ def _script(request: Request, content: bytes) -> Response:
 
 
 def _packable(request: Request, headers: Headers, content: bytes) -> Response:
-    """Return a file, packed if the browser takes that."""
+    """Return a file, compressed if the browser accepts that."""
     if "gzip" in request.headers.get("Accept-Encoding", ""):
         headers["Content-Encoding"] = "gzip"
         content = _packed(content)
@@ -111,12 +111,12 @@ def _packable(request: Request, headers: Headers, content: bytes) -> Response:
 
 
 def is_websocket(request: Request) -> bool:
-    """Whether a request asks for the connection of a page, not for a file."""
+    """Return whether a request asks for a page's connection, not for a file."""
     return request.headers.get("Upgrade", "").lower() == "websocket"
 
 
 def is_page(request: Request) -> bool:
-    """Whether a request asks for the page, or for the connection of one."""
+    """Return whether a request asks for the page, or for a page's connection."""
     path = request.path.partition("?")[0]
     return is_websocket(request) or path in ("/", "/index.html")
 
@@ -128,7 +128,7 @@ def _text(content: bytes) -> Response:
 
 
 def _parts(request: Request, panels: bool) -> Parts:
-    """What is in the page that a request asks for."""
+    """Return the parts of the page that a request asks for."""
     query = parse_qsl(request.path.partition("?")[2])
     if not panels or ("panels", "0") in query:
         return "view"
@@ -150,7 +150,7 @@ def _taken_apart() -> ViserPage | None:
 
 
 def page_of_viser() -> bytes:
-    """The HTML page that comes with viser, all in one."""
+    """Return viser's HTML page, a single file."""
     html = Path(viser.__file__).parent / "client" / "build" / "index.html"
     return html.read_bytes()
 
@@ -175,12 +175,12 @@ def plain_page(
     text: str,
     more: dict[str, str] | None = None,
 ) -> Response:
-    """Return an answer that a browser shows as a page: one heading and a sentence.
+    """Return an answer that a browser shows as a page: a heading and a sentence.
 
     Args:
-        status: of the answer.
-        title: the heading; nothing that a request has brought.
-        text: the sentence; as `title`.
+        status: status of the answer.
+        title: the heading; it must not contain text from a request.
+        text: the sentence; the same holds.
         more: further headers.
     """
     content = _PLAIN_PAGE.format(title=title, text=text).encode()
@@ -188,10 +188,10 @@ def plain_page(
 
 
 def reading_page(text: str) -> Response:
-    """Return an answer that is a page to read: HTML and styles, and nothing that runs.
+    """Return an answer that is a page to read: HTML and styles, and no scripts.
 
     Args:
-        text: the HTML; what a file or a request has brought is escaped in it.
+        text: the HTML, with text from files and requests escaped.
     """
     policy = "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
     more = {"Content-Security-Policy": policy, "X-Content-Type-Options": "nosniff"}

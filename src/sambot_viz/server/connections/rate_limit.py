@@ -1,4 +1,4 @@
-"""Limits of how much one client may send: a rate, and how far it may be ahead."""
+"""Limits for the messages of one client: a rate, and a number in flight."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from collections.abc import Callable
 from contextlib import suppress
 
 WINDOW = 30
-"""At most two times so many messages of a client wait in a session. A hand sends these
-in a third of a second; of the values of one drag only the last one waits."""
+"""A session queues at most twice this number of messages per client. A user's hand
+sends these in a third of a second; of the values of one drag, only the last waits."""
 
 Behind = Callable[[Callable[[], None]], None]
-"""Runs an action, in any thread, behind all that a client has caused so far."""
+"""Runs an action, in any thread, after all effects of a client so far."""
 
 
 class TokenBucket:
-    """Let so many events pass in a second, after a burst, and hold back the rest.
+    """Let a number of events pass per second, after a burst, and hold back the rest.
 
     Args:
-        per_second: events in the long run [1/s].
-        burst: events that may come at once.
+        per_second: long-term rate [1/s].
+        burst: number of events that may come at once.
     """
 
     def __init__(self, per_second: float, burst: float) -> None:
@@ -29,7 +29,7 @@ class TokenBucket:
         self._at = time.monotonic()
 
     def take(self) -> float:
-        """Count one event; returns how long it has to wait [s]."""
+        """Count one event, and return how long it must wait [s]."""
         now = time.monotonic()
         self._left += (now - self._at) * self._per_second
         self._left = min(self._left, self._burst) - 1.0
@@ -38,14 +38,14 @@ class TokenBucket:
 
 
 class InFlightLimit:
-    """Hold back a client whose messages take longer than it takes to send them.
+    """Hold back a client that sends faster than its messages are handled.
 
-    A session does what clients send in one thread, in order. What a client sends faster
-    than that waits in its own connection, not in the queue of the session, so that the
-    others wait for a few of its messages only.
+    A session handles clients' messages in one thread, in order. A client's surplus
+    messages wait in its own connection, not in the session's queue, so other clients
+    wait for only a few of them.
 
     Args:
-        behind: runs an action behind what the client's messages have caused.
+        behind: runs an action after the effects of the client's messages.
     """
 
     def __init__(self, behind: Behind) -> None:
@@ -57,19 +57,19 @@ class InFlightLimit:
         """Count one message, and return when it may be read."""
         self._count += 1
         if self._count % WINDOW == 0:
-            # The session may be one window behind: waiting for this one's own mark
-            # would let it run idle while the next message is read.
+            # The session may lag by one window: if this message waited for its own
+            # mark, the session would run idle while the next message is read.
             earlier, self._earlier = self._earlier, self._mark()
             if earlier is not None:
                 await earlier.wait()
 
     def _mark(self) -> asyncio.Event:
-        """Return an event that is set when everything so far is done."""
+        """Return an event that the session sets after all work so far."""
         loop, done = asyncio.get_running_loop(), asyncio.Event()
 
         def set_it() -> None:
-            # Called in the session's thread: only the loop may set its events, and a
-            # loop that has ended already has no clients.
+            # The session's thread calls this: only the loop may set its events, and a
+            # loop that has ended has no clients.
             with suppress(RuntimeError):
                 loop.call_soon_threadsafe(done.set)
 

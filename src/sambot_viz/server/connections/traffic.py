@@ -1,4 +1,4 @@
-"""What goes out to all clients of a server, counted."""
+"""Counts of the messages to all clients of a server."""
 
 from __future__ import annotations
 
@@ -7,21 +7,21 @@ from typing import Protocol
 
 
 class Sending(Protocol):
-    """A client that something is sent to."""
+    """A client that receives messages."""
 
     def waits(self) -> float:
-        """Return for how long it has not taken what is sent to it [s]."""
+        """Return how long a message has been waiting for the client [s]."""
         ...
 
 
 @dataclass(eq=False, slots=True)
 class Traffic:
-    """Counts what is sent; on the event loop of the server.
+    """Counts outgoing messages, on the event loop of the server.
 
     Attributes:
-        frames: messages that were given to clients, also to those that have left.
-        sent: the same [bytes].
-        clients: those that are connected.
+        frames: number of messages to clients, including clients that have left.
+        sent: their size [bytes].
+        clients: connected clients.
     """
 
     frames: int = 0
@@ -29,5 +29,5 @@ class Traffic:
     clients: set[Sending] = field(default_factory=set[Sending])
 
     def slowest(self) -> float:
-        """Return for how long the slowest client has not taken a message [s]."""
+        """Return how long the slowest client has kept a message waiting [s]."""
         return max((client.waits() for client in self.clients), default=0.0)

@@ -1,8 +1,8 @@
-"""The page that comes with viser, taken apart.
+"""Splits the page that comes with viser into files.
 
 viser packs its script and its style sheet into one HTML file, as text that each page
-unpacks by itself (a third of a second of computing, and on a phone more), and that no
-browser keeps as the program that it is. Here they are unpacked once, in the server.
+unpacks by itself (a third of a second of computing, on a phone more). No browser can
+cache the compiled script. Here the server unpacks them once.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _PACKED = re.compile(
 )
 _ALPHABET = re.compile(rb'const A="((?:[^"\\]|\\.)*)"')
 _UNPACKS = b"const a=de(d.p);"
-"""In the loader: what comes before makes the decoder of messages, which viser needs."""
+"""In the loader: the code before it makes the message decoder, which viser needs."""
 _RUNS = b"""\
 const run=()=>{
   const e=document.createElement("script");
@@ -34,12 +34,12 @@ _DIGITS = 5
 
 @dataclass(frozen=True)
 class ViserPage:
-    """The page of viser, whose script is a file beside it.
+    """viser's page, with its script in a separate file.
 
     Attributes:
         html: the page.
-        name: of the script; another script has another name.
-        script: what the page asks for.
+        name: name of the script; it changes with the script.
+        script: contents of the script.
     """
 
     html: bytes
@@ -48,11 +48,11 @@ class ViserPage:
 
 
 def taken_apart(html: bytes, folder: str) -> ViserPage | None:
-    """Return a page of viser with its script as a file; None where it has another form.
+    """Return viser's page with its script as a file; None for an unknown page format.
 
     Args:
         html: the page that comes with viser.
-        folder: where the page asks for the script, relative to itself.
+        folder: folder of the script, relative to the page.
     """
     packed = _PACKED.search(html)
     if packed is None:
@@ -73,14 +73,14 @@ def taken_apart(html: bytes, folder: str) -> ViserPage | None:
     element = b'<link rel="modulepreload" href="%s"><script data-src="%s">%s%s</script>'
     filled = element % (address, address, loader, _RUNS)
     before, after = html[: packed.start()], html[packed.end() :]
-    # Behind all others, as viser puts it.
+    # After all others, in viser's order.
     style = b"<style>%s</style></head>" % plain[:styles]
     page = before + filled + after.replace(b"</head>", style, 1)
     return ViserPage(page, name, script)
 
 
 def _decoded(text: bytes, alphabet: bytes) -> bytes:
-    """Return bytes that are written as digits, four of them in five digits."""
+    """Decode bytes from text with five digits for every four bytes."""
     values = np.zeros(256, np.uint64)
     values[np.frombuffer(alphabet, np.uint8)] = np.arange(len(alphabet))
     digits = values[np.frombuffer(text, np.uint8)]
