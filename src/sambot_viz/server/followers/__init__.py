@@ -1,1 +1,1 @@
-"""Show what one server shows on others, which know nothing but how to pass it on."""
+"""Show the content of one server on others, which only pass it on."""

@@ -1,4 +1,4 @@
-"""The origin of a broadcast: publishes what goes out to pages, for those who follow."""
+"""The origin of a broadcast: publishes the messages to pages for its followers."""
 
 from __future__ import annotations
 
@@ -27,28 +27,28 @@ from sambot_viz.sources.zenoh.broadcast_session import BroadcastSession, FramePu
 from sambot_viz.sources.zenoh.session import ZenohDeclaration
 
 SNAPSHOT_PERIOD = 1.0
-"""A snapshot is made once in so long at most, for all who have asked since [s]."""
+"""Shortest time between two snapshots, each for all questions since the last [s]."""
 _LOOK_AGAIN = 2.0
-"""How often an origin asks whether another one of its name is still there [s]."""
+"""Time between two checks whether another origin has the same name [s]."""
 _log = logger(__name__)
 
 Answer = Callable[[bytes], object]
 
 
 class Broadcast:
-    """Publishes what one server shows, as long as it is the only one of its name.
+    """Publishes the content of a server, while no other one has its name.
 
-    All is called on the event loop of the server.
+    Call all methods on the event loop of the server.
 
     Args:
-        place: where it is broadcast.
-        url: of the page of this server, without anything secret.
-        outgoing: the packed frames of the scene.
-        handler: has the rows of the clients.
-        channels: of the pages.
+        place: place of the broadcast.
+        url: address of this server's page, without secrets.
+        outgoing: packed frames of the scene.
+        handler: provides the rows of the clients.
+        channels: channels of the pages.
 
     Attributes:
-        id: which start of the program it is.
+        id: identifies the start of the program.
     """
 
     def __init__(
@@ -75,7 +75,7 @@ class Broadcast:
         self._ready = asyncio.Event()
 
     async def run(self) -> None:
-        """Broadcast until this is cancelled."""
+        """Broadcast until cancelled."""
         try:
             await _together(self._connect(), self._watch())
         finally:
@@ -87,7 +87,7 @@ class Broadcast:
         await link.hold(self._place.address, self)
 
     async def _watch(self) -> None:
-        """See what a viewer sees, and come again when a presenter ends that."""
+        """See what a viewer sees; join again after a presenter removes the viewer."""
         while True:
             viewer = ViewerConnection()
             serving = self._channels.serve_viser(viewer.as_connection())
@@ -99,7 +99,7 @@ class Broadcast:
             finally:
                 viewer.abort()
                 await asyncio.gather(task, return_exceptions=True)
-            # What has changed meanwhile was not published, and followers ask for it.
+            # Changes in between were not published; the gap makes followers ask.
             self._number += 1
 
     async def _rows_of(self, viewer: ViewerConnection) -> ClientRows:
@@ -131,13 +131,13 @@ class Broadcast:
     # The connection to the router
 
     def begin(self, session: BroadcastSession) -> None:
-        """Look who broadcasts there; begin when nobody else does."""
+        """Check for other origins; start to broadcast if there are none."""
         self._session = session
         self._others.clear()
         session.watch(self._place.origins, self._take_origin, self._all_told)
 
     def cut(self, why: str) -> None:
-        """Publish nothing until there is a router again."""
+        """Stop publishing until a router is available again."""
         self._stop()
         self._session = None
         self._say(f"Nothing is broadcast: {why}")
@@ -152,7 +152,7 @@ class Broadcast:
             self._others.discard(origin)
             self._all_told()
         if is_there and self._publisher is not None and origin < self.id:
-            # Both have looked at the same moment, and found nobody.
+            # Both origins checked at the same moment, and neither saw the other.
             self._stop()
             self._all_told()
 
@@ -177,7 +177,7 @@ class Broadcast:
     def _stop(self) -> None:
         held, self._held, self._publisher = self._held, [], None
         for one in held:
-            # A session that has ended has taken them back itself.
+            # A closed session has already withdrawn them.
             with suppress(Exception):
                 one.undeclare()
 
@@ -207,7 +207,7 @@ class Broadcast:
             self._answering = None
 
     async def _snapshot(self) -> Snapshot:
-        """Return what a page gets now; what is published meanwhile is newer."""
+        """Return the content that a new page gets; later messages are newer."""
         number = self._number
         parts = () if self._rows is None else self._rows.sent
         messages = [part.since(0)[1] for part in parts]
@@ -221,7 +221,7 @@ def _as_bytes(message: str | bytes) -> bytes:
 
 
 async def _together(*actions: Coroutine[Any, Any, Any] | asyncio.Future[Any]) -> None:
-    """Run until the first of several ends, and end the others."""
+    """Run several actions until the first one ends, and end the others."""
     tasks = [asyncio.ensure_future(one) for one in actions]
     try:
         done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)

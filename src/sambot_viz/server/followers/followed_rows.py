@@ -1,4 +1,4 @@
-"""What a page of a follower is sent beside the scene: as the origin sends it."""
+"""Messages for a follower's pages, apart from the scene, as the origin sends them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from sambot_viz.panels.rows.row import Data, Json
 from sambot_viz.panels.rows.row_store import COMPRESSED, ClientRows, RowStore
 
 STATE = "follower/state"
-"""The data of the page that says whom it follows."""
+"""Data of the page that names the origin."""
 
 
 class LatestMessage:
@@ -24,24 +24,24 @@ class LatestMessage:
         self._message: str | bytes | None = None
 
     def take(self, message: str | bytes) -> None:
-        """Show another one."""
+        """Replace the message."""
         self.version += 1
         self._message = message
         for listener in tuple(self.listeners):
             listener()
 
     def since(self, version: int) -> tuple[int, str | bytes | None]:
-        """Return the present version, and the message for who has another one."""
+        """Return the current version, and the message unless the caller has it."""
         return self.version, None if version == self.version else self._message
 
 
 class FollowedRows:
-    """Rows and data that come from another server.
+    """Rows and data from another server.
 
-    All is called on the event loop.
+    Call all methods on the event loop.
 
     Attributes:
-        all: what each page is sent.
+        all: messages for each page.
     """
 
     def __init__(self) -> None:
@@ -52,12 +52,11 @@ class FollowedRows:
         self.all = ClientRows(stores, (self._camera,))
 
     def say(self, origin: str, trouble: str) -> None:
-        """Say whom the pages follow.
+        """Show in the pages which server they follow.
 
         Args:
-            origin: the address of the page where control can be requested; "" for
-                none that is known.
-            trouble: why what they show is not what is there now; "" when it is.
+            origin: address of the page that offers control; "" if unknown.
+            trouble: reason why the pages show an old state; "" if they do not.
         """
         state: Json = {"origin": origin, "trouble": trouble}
         self._own.replace("follower", [Data(STATE, state).json()])
@@ -69,14 +68,14 @@ class FollowedRows:
             self.take(message)
 
     def take(self, message: bytes) -> None:
-        """Take what the origin sends to a page.
+        """Handle a message of the origin to a page.
 
         Raises:
             ValueError: it is not a message of a server of the same version.
         """
         packed = message[:1] == COMPRESSED
         if not packed and message[:1] != b"{":
-            # A picture, which no page has asked this server for.
+            # A picture, which no page of this server has requested.
             return
         try:
             content = gzip.decompress(message[1:]) if packed else message

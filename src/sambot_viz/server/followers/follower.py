@@ -1,7 +1,7 @@
-"""A follower: a server whose content comes from another one, in place of a session.
+"""A follower: a server that shows another server's content instead of a session.
 
-It knows no model, no recording and no robot. Its pages only look; what they would
-change is changed at the origin, to which they lead.
+It has no model, no recording and no robot. Its pages can only view; to change anything,
+users follow their link to the origin.
 """
 
 from __future__ import annotations
@@ -30,52 +30,52 @@ from sambot_viz.sources.broadcast_place import BroadcastPlace, origin_of
 from sambot_viz.sources.zenoh.broadcast_session import BroadcastSession
 
 ASK_PERIOD = 1.0
-"""A snapshot is asked for once in so long at most [s]."""
+"""Shortest time between two requests for a snapshot [s]."""
 ASK_SPREAD = 0.3
-"""Followers that lack the same ask within so long, by chance [s]."""
+"""Followers that lack the same snapshot spread their requests over this time [s]."""
 LONGEST_ANSWER = 30.0
-"""An origin that has not answered by then is asked again [s]."""
+"""Time after which a follower asks a silent origin again [s]."""
 MOST_BEHIND = 100
-"""Frames that wait for a follower that is slow, about two seconds of a robot; after
-more of them it goes on with what is there then."""
+"""Limit for frames that wait in a slow follower, about two seconds of a robot; beyond
+it, the follower skips to the current state."""
 MOST_WAITING = 1000
-"""Frames that wait for a snapshot; of more, another one is asked for."""
+"""Limit for frames that wait for a snapshot; beyond it, the follower asks again."""
 _log = logger(__name__)
 
 
 class Relay:
-    """Shows in one server what an origin broadcasts.
+    """Shows the broadcast of an origin in a server.
 
-    All is called on the event loop of the server.
+    Call all methods on the event loop of the server.
 
     Args:
-        place: where it is broadcast.
-        listener: a server that listens, and has nothing to show.
+        place: place of the broadcast.
+        listener: a server that listens, without content.
     """
 
     def __init__(self, place: BroadcastPlace, listener: Listener) -> None:
         self._place = place
         self._scene = viser_private.FollowedScene(listener.viser)
         self._rows = FollowedRows()
-        # A balancer may give the two connections of a page to two followers.
+        # A load balancer may give a page's two connections to two followers.
         listener.channels.rows_of_all = self._rows.all
         self._session: BroadcastSession | None = None
         self._origins: dict[str, str] = {}
-        # Of what is shown: whose it is, and the number of the last frame.
+        # Origin and last frame number of the shown content.
         self._origin, self._number, self._url = "", 0, ""
         self._waiting: deque[tuple[Label, bytes]] = deque()
         self._is_asking, self._next_ask = False, 0.0
         self._trouble = ""
 
     async def run(self) -> None:
-        """Follow until this is cancelled."""
+        """Follow until cancelled."""
         self._say(f"Waiting for the zenoh router at {self._place.address.label}")
         await link.hold(self._place.address, self)
 
     # The connection to the router
 
     def begin(self, session: BroadcastSession) -> None:
-        """Take what is broadcast there, from now on."""
+        """Start to receive the broadcast."""
         self._session, self._is_asking = session, False
         self._origins.clear()
         session.take_frames(
@@ -84,7 +84,7 @@ class Relay:
         session.watch(self._place.origins, self._take_origin, self._look)
 
     def cut(self, why: str) -> None:
-        """Go on showing what there was."""
+        """Keep showing the last state."""
         self._session = None
         self._say(why)
 
@@ -97,7 +97,7 @@ class Relay:
         self._look()
 
     def _look(self) -> None:
-        """Say who is there, and ask for what is not shown yet."""
+        """Show who broadcasts, and ask for missing content."""
         if not self._origins:
             self._say(
                 "The origin has ended; this is what it showed last"
@@ -124,7 +124,7 @@ class Relay:
     # Snapshots
 
     def _ask(self) -> None:
-        """Ask for a snapshot, not too often, and not at the same time as all others."""
+        """Ask for a snapshot, at limited rate, and not together with all others."""
         if self._is_asking or self._session is None:
             return
         self._is_asking = True
@@ -137,7 +137,7 @@ class Relay:
         if session is not self._session:
             return
 
-        # The answer holds all that was published before the question.
+        # The answer contains all that was published before the question.
         self._waiting.clear()
 
         def answered(content: bytes) -> None:
@@ -195,22 +195,22 @@ class Relay:
         except ValueError as error:
             _log.warning(f"A frame of {self._place.label} is dropped: {error}")
 
-    # What the clients want
+    # Requests of clients
 
     def take_edit(self, client_id: int, edit: object) -> None:
-        """Drop an edit: the page says that it only looks."""
+        """Drop an edit: the page shows that it can only view."""
 
     def take_camera(self, client_id: int, report: CameraReport) -> None:
-        """Drop a report: the camera of a page is its own."""
+        """Drop a report: each page keeps its camera."""
 
     def may_edit(self, client_id: int) -> bool:
         """Return that no client may set widgets."""
         return False
 
     def behind(self, client_id: int, action: Callable[[], None]) -> None:
-        """Run an action: nothing is caused by clients."""
+        """Run an action at once: clients cause no effects here."""
         action()
 
     def rows_of(self, client_id: int) -> ClientRows:
-        """Return the rows, which all clients see."""
+        """Return the rows, which all clients share."""
         return self._rows.all

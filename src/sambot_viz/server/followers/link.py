@@ -16,27 +16,27 @@ from sambot_viz.sources.zenoh.broadcast_session import BroadcastSession
 from sambot_viz.sources.zenoh.session import LONGEST_OPENING, open_session
 
 AGAIN = 0.5, 1.5
-"""The shortest and the longest pause before the next try, by chance, so that not all
-come at once [s]."""
+"""Shortest and longest pause before the next attempt [s]; a random pause keeps ends
+from connecting all at once."""
 
 END_TIME = 1.0
-"""How long one that opens is waited for at the end [s]."""
+"""Longest wait, at the end, for a connection that is opening [s]."""
 
 
 class End(Protocol):
-    """One end of a broadcast; all is called on the event loop."""
+    """One end of a broadcast; call all methods on the event loop."""
 
     def begin(self, session: BroadcastSession) -> None:
-        """Go on: there is a connection."""
+        """Continue with a new connection."""
         ...
 
     def cut(self, why: str) -> None:
-        """Take that there is no connection, and why."""
+        """Handle the loss of the connection, and its reason."""
         ...
 
 
 async def hold(address: Address, end: End) -> None:
-    """Keep one end connected, until this is cancelled."""
+    """Keep one end connected until cancelled."""
     while True:
         why = f"The zenoh router at {address.label} has ended"
         try:
@@ -50,14 +50,14 @@ async def hold(address: Address, end: End) -> None:
 
 
 async def _hold_once(address: Address, end: End) -> None:
-    # What zenoh says of a place that it cannot reach is the same for all reasons.
+    # zenoh reports the same message for all causes of an unreachable place.
     opening = asyncio.open_connection(address.host, address.port)
     _, writer = await asyncio.wait_for(opening, LONGEST_OPENING)
     writer.close()
     loop, lost = asyncio.get_running_loop(), asyncio.Event()
 
     def post(action: Callable[[], object]) -> None:
-        # A loop that has ended needs nothing more.
+        # A loop that has ended needs no result.
         with suppress(RuntimeError):
             loop.call_soon_threadsafe(action)
 
@@ -69,7 +69,7 @@ async def _hold_once(address: Address, end: End) -> None:
             end.begin(session)
             await lost.wait()
     finally:
-        # One that is given up while it opens is closed when it has opened.
+        # A session that is abandoned while it opens is closed once it is open.
         await asyncio.wait([task], timeout=END_TIME)
         _close(task) if task.done() else task.add_done_callback(_close)
 

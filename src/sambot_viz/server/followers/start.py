@@ -1,4 +1,4 @@
-"""Start either end of a broadcast on the event loop of a server, and end it."""
+"""Start either end of a broadcast on the event loop of a server, and stop it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from sambot_viz.server.protection.inbound_filter import ClientHandler
 from sambot_viz.sources.broadcast_place import parse_place
 
 _LONGEST_END = 2.0
-"""How long the end is waited for [s]."""
+"""Longest wait for the end [s]."""
 
 
 def broadcast(
@@ -26,16 +26,16 @@ def broadcast(
     outgoing: Outbox,
     handler: ClientHandler,
 ) -> Callable[[], None]:
-    """Broadcast what a server shows from now on.
+    """Broadcast the content of a server from now on.
 
     Args:
-        options: of the server, with the place.
-        listener: of the server.
-        outgoing: the packed frames of its scene.
-        handler: has the rows of its clients.
+        options: options of the server, with the place.
+        listener: the server.
+        outgoing: packed frames of its scene.
+        handler: provides the rows of its clients.
 
     Returns:
-        Ends it.
+        A function that stops the broadcast.
     """
     assert options.broadcast is not None
     place = parse_place(options.broadcast, "--broadcast")
@@ -45,7 +45,7 @@ def broadcast(
 
 
 def follow(options: Options, listener: Listener) -> Callable[[], None]:
-    """Show in a server what another one broadcasts; returns what ends it."""
+    """Show another server's broadcast in a server; return a function that stops it."""
     assert options.follow is not None
     made = Relay(parse_place(options.follow, "--follow"), listener)
     listener.give(made)
@@ -53,7 +53,7 @@ def follow(options: Options, listener: Listener) -> Callable[[], None]:
 
 
 def _url(options: Options, port: int) -> str:
-    """Return where the page of a server is, without its secrets; "" for nowhere."""
+    """Return the address of a server's page, without secrets; "" for none."""
     plain = options.having(token=None, presenter=None)
     if plain.unix_socket is not None:
         return public_url(plain) or ""

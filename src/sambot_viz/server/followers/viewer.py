@@ -1,8 +1,7 @@
-"""The viewer that stands for all who follow: a client without a connection.
+"""The viewer that represents all followers: a client without a connection.
 
-It sees what a page sees, from the side of the server: what displays draw for who looks,
-the rows of a viewer, the view that a presenter leads to. What would be sent to it is
-taken here.
+It has a page's view of the server: the drawings of displays for viewers, the rows of a
+viewer, the view of a presenter. This module takes the messages that a page would get.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from sambot_viz.server.connections.rate_limit import TokenBucket
 from sambot_viz.session.clients.viser_camera import VISER_FIRST_POSITION
 
 NAME = "Followers"
-"""What the others read of it."""
+"""Name that other users see."""
 _CAMERA = msgspec.msgpack.encode(
     {
         "type": "ViewerCameraMessage",
@@ -36,17 +35,17 @@ _CAMERA = msgspec.msgpack.encode(
         "up_direction": (0.0, 0.0, 1.0),
     }
 )
-"""A page is a client when it has said where its camera is: that of one that has just
-been opened, so that it is asked for the view of the config."""
+"""Camera of a page that has just opened. A page counts as a client once it has sent its
+camera; this one makes the server ask for the view of the config."""
 
 Take = Callable[[str | bytes], object]
 
 
 class TakenWriter:
-    """Has the methods of a `ClientWriter`, and hands on what it is given.
+    """Has the methods of a `ClientWriter`, and passes its messages on.
 
     Args:
-        take: gets each message, on the event loop.
+        take: receives each message, on the event loop.
     """
 
     def __init__(self, take: Take) -> None:
@@ -56,14 +55,14 @@ class TakenWriter:
         """Do nothing: there is no line."""
 
     async def send(self, message: str | bytes) -> None:
-        """Hand on a message."""
+        """Pass a message on."""
         self._take(message)
-        # Messages that never wait for a line would keep all others waiting.
+        # Messages that never wait for a line would block all other clients.
         await asyncio.sleep(0)
 
 
 class ViewerConnection:
-    """Stands in for the `Connection` of a page, for as long as it is not closed."""
+    """Takes the place of a page's `Connection` until closed."""
 
     subprotocol = VISER_PROTOCOL
     close_timeout = 0.0
@@ -81,14 +80,14 @@ class ViewerConnection:
         self._unread = [_CAMERA]
 
     def as_connection(self) -> Connection:
-        """Return it as what it stands for."""
+        """Return this object under the type that it imitates."""
         return cast(Connection, self)
 
     async def receive(self) -> bytes:
-        """Return the first camera, and nothing more.
+        """Return the first camera, and nothing after it.
 
         Raises:
-            ConnectionClosedOK: it was closed.
+            ConnectionClosedOK: the connection was closed.
         """
         if self._unread:
             return self._unread.pop()
@@ -100,11 +99,11 @@ class ViewerConnection:
         return await self.read()
 
     async def close(self, code: int = 1000, reason: str = "") -> None:
-        """End it."""
+        """Close the connection."""
         del code, reason
         self.abort()
 
     def abort(self) -> None:
-        """End it at once."""
+        """Close the connection at once."""
         self.state = State.CLOSED
         self._closed.set()

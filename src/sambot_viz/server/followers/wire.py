@@ -1,8 +1,8 @@
-"""What goes from a server that broadcasts to those that follow it.
+"""Messages from a server that broadcasts to its followers.
 
-The origin publishes each packed frame of the scene, and each message of the rows, with
-a number that is one more than the last. A follower that lacks one asks for a snapshot:
-what a page gets that is opened now, and the number up to which it holds.
+The origin publishes each packed frame of the scene, and each message of the rows, under
+consecutive numbers. A follower that lacks a number asks for a snapshot: the content
+that a newly opened page gets, with the number of the last frame in it.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ import viser
 from sambot_viz._version import __version__
 
 VERSION = f"{__version__}-viser{viser.__version__}"
-"""Both have the same, as the rows and the scene of another version may be others."""
+"""Both ends need the same version, as rows and scene may differ between versions."""
 Part = Literal["scene", "rows"]
 
 
 class Label(msgspec.Struct, array_like=True, frozen=True):
-    """Says what a published frame is.
+    """Describes a published frame.
 
     Attributes:
-        origin: who has published it; another one after each start.
-        number: one more than that of the last frame.
-        part: what it is of.
+        origin: identifies the publisher; it changes with each start.
+        number: the last frame's number plus one.
+        part: part of the content that the frame belongs to.
     """
 
     origin: str
@@ -34,17 +34,17 @@ class Label(msgspec.Struct, array_like=True, frozen=True):
     part: Part
 
     def packed(self) -> bytes:
-        """Return it as it is attached."""
+        """Encode the label for its frame."""
         return msgspec.msgpack.encode(self)
 
 
 class Snapshot(msgspec.Struct, array_like=True, frozen=True):
-    """What a page gets that is opened now.
+    """The content that a newly opened page gets.
 
     Attributes:
-        origin: whose it is.
-        number: of the last frame that it holds.
-        url: where the page of the origin is, without anything secret.
+        origin: identifies the publisher.
+        number: number of the last frame in it.
+        url: address of the origin's page, without secrets.
         scene: packed frames.
         rows: messages of the page's own channel, each JSON or packed.
     """
@@ -56,7 +56,7 @@ class Snapshot(msgspec.Struct, array_like=True, frozen=True):
     rows: Sequence[bytes]
 
     def packed(self) -> bytes:
-        """Return it as it is sent."""
+        """Encode the snapshot for sending."""
         return msgspec.msgpack.encode(self)
 
 
@@ -65,7 +65,7 @@ _SNAPSHOTS = msgspec.msgpack.Decoder(Snapshot)
 
 
 def label_of(attached: bytes) -> Label | None:
-    """Return what is said of a frame; None for what a stranger has published."""
+    """Decode the label of a frame; None for one from an unknown publisher."""
     try:
         return _LABELS.decode(attached)
     except msgspec.DecodeError:
@@ -73,7 +73,7 @@ def label_of(attached: bytes) -> Label | None:
 
 
 def snapshot_of(content: bytes) -> Snapshot | None:
-    """Return a snapshot; None for what a stranger has answered."""
+    """Decode a snapshot; None for one from an unknown publisher."""
     try:
         return _SNAPSHOTS.decode(content)
     except msgspec.DecodeError:

@@ -1,1 +1,1 @@
-"""Collect, pack and send what goes out to clients."""
+"""Collect, pack and send messages to clients."""

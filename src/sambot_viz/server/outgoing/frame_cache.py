@@ -1,7 +1,7 @@
 """Pack messages for the wire once, however many clients get them.
 
-viser packs and compresses every message for every client. Thirty clients that open a
-scene of 50 MB would take 3 GB and half a minute of computing.
+viser packs and compresses every message for every client. If thirty clients opened a
+scene of 50 MB, that would take 3 GB and half a minute of computing.
 """
 
 from __future__ import annotations
@@ -16,16 +16,17 @@ from typing import Any, cast
 from sambot_viz import viser_private
 
 HEAVY = 256 * 1024
-"""More than that is packed in a thread, and is not kept once it is sent [bytes]."""
+"""Above this size, a thread packs a frame, and the cache drops it once sent [bytes]."""
 RECENT = 32
 """Number of small frames kept for clients that lag a little."""
 MARKER, MORE = -1, -2
-"""The numbers of messages that are in no buffer: viser's marker, and that more of what
-belongs together follows."""
+"""Numbers of messages outside any buffer: viser's marker, and the notice that more
+messages of the same change follow."""
 
 
 MOVED = -10
-"""Less a number, it follows the number of a message: since when its pose is that."""
+"""This value minus the number of a pose follows a message's number: it says since when
+the message has its pose."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,9 +34,9 @@ class Batch:
     """Messages that go out together.
 
     Attributes:
-        numbers: those of the messages in their buffer; they say which they are.
+        numbers: numbers of the messages in their buffer, which identify them.
         messages: viser's messages.
-        weight: about how long they are [bytes].
+        weight: approximate size [bytes].
     """
 
     numbers: tuple[int, ...]
@@ -43,13 +44,13 @@ class Batch:
     weight: int
 
     def with_marker(self, marker: Any, number: int = MARKER) -> Batch:
-        """This batch with a message behind it that is in no buffer."""
+        """Return this batch, followed by a message that is in no buffer."""
         numbers = (*self.numbers, number)
         return Batch(numbers, (*self.messages, marker), self.weight)
 
 
 def weight(message: Any) -> int:
-    """Return about how long a message is [bytes], by what may be long in it."""
+    """Return the approximate size of a message, from its large fields [bytes]."""
     holder: Any = getattr(message, "props", message)
     fields = cast(dict[str, Any], holder.__dict__)
     return sum(map(_length, fields.values()))
@@ -75,7 +76,7 @@ class PackedFrame:
 
 
 class FrameCache:
-    """Keep the packed frames of one buffer, each made when a client first wants it."""
+    """Keep the packed frames of one buffer; pack each when a client first wants it."""
 
     def __init__(self) -> None:
         self._packer = viser_private.Packer()
@@ -87,9 +88,9 @@ class FrameCache:
         self._one_at_a_time = asyncio.Lock()
 
     async def packed(self, batch: Batch) -> PackedFrame:
-        """Pack a batch, unless it is there already.
+        """Pack a batch, or return the frame from the cache.
 
-        A heavy one is there only as long as a client holds it.
+        A heavy frame stays in the cache only as long as a client holds it.
         """
         numbers = batch.numbers
         found = self._there.get(numbers)
@@ -106,11 +107,11 @@ class FrameCache:
             task = asyncio.get_running_loop().create_task(self._pack_heavy(batch))
             self._packing[numbers] = task
             task.add_done_callback(lambda _: self._packing.pop(numbers))
-        # A client that leaves does not take it away from the others.
+        # A client that leaves must not cancel the packing for the others.
         return await asyncio.shield(task)
 
     async def _pack_heavy(self, batch: Batch) -> PackedFrame:
-        # Each takes three times its length while it is packed.
+        # Each takes three times its size during packing.
         async with self._one_at_a_time:
             pack = viser_private.Packer().pack
             frame = PackedFrame(await asyncio.to_thread(pack, batch.messages))

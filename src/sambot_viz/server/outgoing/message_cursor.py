@@ -1,4 +1,4 @@
-"""How far one client has come in the messages of a buffer, and what it gets next."""
+"""One client's position in the messages of a buffer, and its next batch."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from sambot_viz.server.outgoing.frame_cache import HEAVY, MOVED, Batch, weight
 
 @dataclass(slots=True)
 class SharedBatch:
-    """Keep the newest batch: clients that have had everything before get the same.
+    """Keep the newest batch: clients that have all earlier messages share it.
 
     Attributes:
-        after: number of the last message before it, and of the last frame of poses.
-        end: the same of its last message.
-        batch: all messages between them.
+        after: numbers of the last message, and of the last frame of poses, before it.
+        end: the same numbers at its end.
+        batch: all messages in between.
     """
 
     after: tuple[int, int] = (-1, -1)
@@ -26,16 +26,16 @@ class SharedBatch:
 
 
 class MessageCursor:
-    """Remember how far one client has come in the messages.
+    """Track the position of one client in the messages.
 
     Args:
-        buffer: where they are.
-        client_id: the number of the client.
-        shared: of all clients of the buffer.
+        buffer: buffer of the messages.
+        client_id: number of the client.
+        shared: batch that all clients of the buffer share.
 
     Attributes:
         client_id: as given.
-        last: the number of the last message that it had, or that is not for it.
+        last: number of the last message that the client has had or does not need.
     """
 
     def __init__(
@@ -45,7 +45,7 @@ class MessageCursor:
         self.last = -1
         self._buffer = buffer
         self._poses = viser_private.MovingPoses.of(buffer)
-        # The number of the last frame of poses that it had.
+        # Number of the last frame of poses that the client has had.
         self._posed = -1
         self._shared = shared
         self._ahead: Sequence[int] = ()
@@ -53,15 +53,14 @@ class MessageCursor:
 
     @property
     def held(self) -> bool:
-        """Whether nothing may go out for now."""
+        """Return whether all messages must wait for now."""
         return self._buffer.atomic_counter != 0
 
     def next(self, end: int) -> Batch:
-        """The next messages; none when there are none, or when they are held.
+        """Return the next messages; empty when there are none, or they must wait.
 
         Args:
-            end: number of the last message that may be among them; never a smaller
-                one than before.
+            end: number of the last message that may be included; it never decreases.
         """
         shared, after = self._shared, (self.last, self._posed)
         has_all = self._place == len(self._ahead)
@@ -76,7 +75,7 @@ class MessageCursor:
         return batch
 
     def _collect(self, end: int) -> tuple[Batch, bool]:
-        """Return the next messages, and whether any client would get the same."""
+        """Return the next messages, and whether every client would get the same."""
         numbers: list[int] = []
         found: list[viser_private.Message] = []
         most, heavy, is_for_all = self._buffer.max_window_size, 0, True
@@ -100,7 +99,7 @@ class MessageCursor:
         return Batch(tuple(numbers), found, heavy), is_for_all
 
     def _message(self, number: int) -> tuple[Any, Sequence[int]]:
-        """Return a message, if it is there, and the numbers that say which it is.
+        """Return a message, if it exists, and the numbers that identify its state.
 
         The pose in a message changes in place, and so does a frame of poses.
         """
@@ -114,7 +113,7 @@ class MessageCursor:
         return message, (number, MOVED - moved)
 
     def _numbers(self, end: int) -> Sequence[int]:
-        """The numbers to ask for, up to `end`, which is the last of them."""
+        """Return the numbers to ask for; the last one is `end`."""
         messages = self._buffer.message_from_id
         if end - self.last <= len(messages):
             return range(self.last + 1, end + 1)

@@ -1,8 +1,8 @@
-"""Wake the clients of a buffer of messages, once for all messages that go together.
+"""Wake the clients of a buffer once for all messages that belong together.
 
-viser wakes each client for each message and each request to send at once, and lets it
-wait for more by itself: two switches between threads and a dozen of timers and tasks
-for every picture. Here the buffer waits once, for all its clients.
+viser wakes each client at each message and each flush, and lets each wait for more by
+itself: two thread switches and a dozen timers and tasks for every picture. Here the
+buffer waits once, for all its clients.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from sambot_viz import viser_private
 
 
 class News:
-    """Say how many messages of a buffer may go out, and wake those who wait for more.
+    """Announce how many messages of a buffer may go out, and wake waiting clients.
 
-    What is changed together, and what is flushed, goes out at once; other messages are
-    collected for viser's window first.
+    Changes made together, and flushed messages, go out at once. For other messages,
+    the buffer first waits as long as viser collects messages.
 
     Args:
-        buffer: is watched from now on.
+        buffer: buffer to watch from now on.
 
     Attributes:
         buffer: as given.
@@ -34,9 +34,9 @@ class News:
         self._loop = buffer.event_loop
         self._waiting: list[asyncio.Future[None]] = []
         self._timer: asyncio.TimerHandle | None = None
-        # A flush right after a change that was sent at once asks for nothing more.
+        # A flush right after a change that went out at once has no effect.
         self._asked = -1
-        # Somebody is behind `end`, because a change was being made.
+        # A client lags behind `end`, because a change was in progress.
         self._is_held_up = False
         buffer.message_event = LoopEvent(self, self._loop, self._soon)
         buffer.flush_event = LoopEvent(self, self._loop, self._now)
@@ -44,30 +44,30 @@ class News:
 
     @staticmethod
     def of(buffer: viser_private.MessageBuffer) -> News:
-        """Return the one that watches a buffer."""
+        """Return the instance that watches a buffer."""
         event = buffer.message_event
         return event.news if isinstance(event, LoopEvent) else News(buffer)
 
     def join(self) -> None:
-        """Take part from now on, in the loop: somebody reads what goes out."""
+        """Register a reader of the outgoing messages; call it on the loop."""
         if self.buffer.atomic_counter == 0:
             self.end = max(self.end, self.buffer.message_counter - 1)
 
     async def wait(self) -> None:
-        """Wait until more may go out, or the buffer has ended."""
+        """Wait until more messages may go out, or the buffer has ended."""
         waiting = self._loop.create_future()
         self._waiting.append(waiting)
         await waiting
 
     def may_go_on(self, is_behind: bool) -> bool:
-        """Whether a client that was given nothing may ask again, without waiting.
+        """Return whether a client without a batch may ask again, without waiting.
 
         Args:
-            is_behind: whether there was something that was held back.
+            is_behind: whether messages for it were held back.
         """
         if not is_behind:
             return self.buffer.done
-        # In this order: the end of the change, in another thread, looks at this.
+        # The order matters: the end of the change, in another thread, reads this flag.
         self._is_held_up = True
         return self.buffer.atomic_counter == 0
 
@@ -84,10 +84,10 @@ class News:
 
     def _ask(self) -> None:
         if not self.buffer.generator_cursors:
-            # Whoever comes is counted there first, and then looks by `join`.
+            # A newcomer is counted there first, and then looks in `join`.
             return
         self._asked = self.buffer.message_counter - 1
-        # A loop that has stopped already has no clients.
+        # A loop that has stopped has no clients.
         with suppress(RuntimeError):
             self._loop.call_soon_threadsafe(self._now)
 
@@ -116,12 +116,12 @@ class News:
 class LoopEvent(asyncio.Event):
     """Event that acts on the event loop only.
 
-    viser sets it in the thread that adds a message, and on the loop after that.
+    viser sets it in the thread that adds a message, and then on the loop.
 
     Args:
-        news: whose event it is.
+        news: owner of the event.
         loop: the event loop.
-        act: what to do.
+        act: action of the event.
 
     Attributes:
         news: as given.
@@ -136,7 +136,7 @@ class LoopEvent(asyncio.Event):
         self._act = act
 
     def set(self) -> None:
-        """Act; in another thread that does nothing."""
+        """Act on the event loop; in another thread, do nothing."""
         try:
             here = asyncio.get_running_loop()
         except RuntimeError:

@@ -1,10 +1,10 @@
-"""Send each client the messages that it has not had yet, in batches.
+"""Send each client the messages that it lacks, in batches.
 
-viser numbers its messages and keeps the newest of each kind and node. Its own loop asks
-for every number since the server started, on the event loop and for every page that is
-opened: a second in which nobody gets anything, for each ten million messages. This one
-asks only for messages that are there. A mesh goes alone, so that it is packed once for
-all clients that are opened at the same time.
+viser numbers its messages and keeps the newest of each kind and node. For every page
+that opens, its loop asks on the event loop for every number since the server started:
+a second without messages to anyone for each ten million numbers. This module asks only
+for messages that exist. A mesh goes alone, so that one packed copy serves all clients
+that open at the same time.
 """
 
 from __future__ import annotations
@@ -22,28 +22,28 @@ from sambot_viz.server.outgoing.message_cursor import MessageCursor, SharedBatch
 from sambot_viz.server.outgoing.news import News
 
 _NO_CLIENT = -1
-"""Stands for the number of a client where all get the same."""
+"""Takes the place of a client's number where all clients get the same."""
 
 
 def prepare(server: viser.ViserServer) -> None:
-    """Send from here what goes out to all clients of a server."""
+    """Let this module send the messages for all clients of a server."""
     _replace(server, viser_private.broadcast_buffer(server))
 
 
 def prepare_own(server: viser.ViserServer, client_id: int) -> None:
-    """Send from here what goes out to one client."""
+    """Let this module send the messages for one client."""
     _replace(server, viser_private.own_buffer(server, client_id))
 
 
 def keep_apart(server: viser.ViserServer, apart: Callable[[int], bool]) -> Outbox:
-    """Send some clients only what goes out to all until now: they have a scene alone.
+    """Stop sending common messages to some clients, which have a separate scene.
 
     Args:
         server: the server.
-        apart: whether the client of a number is one of them.
+        apart: returns whether the client with a number is one of them.
 
     Returns:
-        What goes out to the others.
+        The outbox of the other clients.
     """
     buffer = viser_private.broadcast_buffer(server)
     end = buffer.message_counter - 1
@@ -69,10 +69,10 @@ def _replace(
 
 
 class Outbox:
-    """What goes out from one buffer of messages, packed once for all who get it.
+    """Messages from one buffer, packed once for all clients that get them.
 
     Args:
-        buffer: the buffer; what viser asks for goes through here from now on.
+        buffer: the buffer; from now on this object handles viser's requests for it.
     """
 
     def __init__(self, buffer: viser_private.MessageBuffer) -> None:
@@ -89,13 +89,13 @@ class Outbox:
         marker: Any,
         last: float,
     ) -> Sender:
-        """Return what sends one client its messages; see `batches`."""
+        """Return the sender of one client's messages; see `batches`."""
         cursor = MessageCursor(self._buffer, client_id, self._shared)
         parts = batches(self._news, cursor, marker, backlog_end, last)
         return Sender(connection, self._cache, parts)
 
     async def frames(self) -> AsyncGenerator[bytes, None]:
-        """Yield what goes out from now on, as it is sent to clients."""
+        """Yield the frames that go out from now on, as clients get them."""
         self._news.join()
         cursor = self._live = MessageCursor(self._buffer, _NO_CLIENT, self._shared)
         cursor.last = self._news.end
@@ -103,7 +103,7 @@ class Outbox:
             yield (await self._cache.packed(batch)).content
 
     async def backlog(self) -> list[bytes]:
-        """Return all that `frames` has yielded or left out so far, as it is now."""
+        """Return all that `frames` has yielded or omitted so far, as it is now."""
         end = self._news.end if self._live is None else self._live.last
         cursor = MessageCursor(self._buffer, _NO_CLIENT, self._shared)
         found: list[bytes] = []
@@ -117,12 +117,12 @@ class Outbox:
 
 
 class Sender:
-    """Sends batches by itself: viser, which asks it for them, would pack them again.
+    """Sends batches itself: viser, which asks for them, would pack them again.
 
     Args:
-        connection: of the client.
-        cache: packs them, once for all clients.
-        batches: for this client.
+        connection: connection of the client.
+        cache: packs the batches, once for all clients.
+        batches: batches of this client.
     """
 
     def __init__(
@@ -142,15 +142,15 @@ class Sender:
             ConnectionClosed: the client has left.
         """
         async for batch in self._batches:
-            # Keep a reference so that other clients can reuse the packed bytes, and
-            # no longer than they take to send: a mesh is large.
+            # Keep a reference so that other clients can reuse the packed bytes, but
+            # only while they go out: a mesh is large.
             frame = await self._cache.packed(batch)
             await self._connection.writer.send(frame.content)
             del frame
         raise StopAsyncIteration
 
     async def aclose(self) -> None:
-        """The client has left."""
+        """End the batches of a client that has left."""
         await self._batches.aclose()
 
 
@@ -161,14 +161,14 @@ async def batches(
     backlog_end: int,
     last: float = math.inf,
 ) -> AsyncGenerator[Batch, None]:
-    """Yield the messages for one client, several at a time, as they come.
+    """Yield the messages for one client as they come, several at a time.
 
     Args:
-        news: tells how many may go out.
-        cursor: how far the client has come.
-        marker: a message that goes out right behind the backlog.
-        backlog_end: number of the last message that was there when it came.
-        last: number of the last message that is for this client.
+        news: announces how many may go out.
+        cursor: position of the client.
+        marker: message that goes out right after the backlog.
+        backlog_end: number of the last message that existed when the client came.
+        last: number of the last message for this client.
     """
     buffer, client_id = news.buffer, cursor.client_id
     buffer.generator_cursors[client_id] = cursor.last
@@ -186,7 +186,7 @@ async def batches(
                 batch = batch.with_marker(marker)
                 marker = None
             elif is_behind and batch.messages and cursor.last > backlog_end:
-                # All of a change belongs in one picture.
+                # All messages of a change belong in one picture.
                 batch = batch.with_marker(viser_private.more_follows(), MORE)
             if batch.messages:
                 yield batch

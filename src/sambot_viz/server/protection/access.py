@@ -1,23 +1,25 @@
-"""Which web pages may use this server: by default only its own.
+"""Decide which web pages may use this server: by default only its own.
 
 viser accepts every connection, so any page that a user visits could open
-``ws://localhost:8080``, see the robot and move it. Here a browser is only let in from
-the page that this server itself sent, or from an origin that was allowed by name: a
-page of another origin is refused, and so is one that reached the server under a foreign
+``ws://localhost:8080``, see the robot and move it. This module admits a browser only
+from the page that this server itself sent, or from an origin that was allowed by name.
+It refuses pages of other origins, and pages that reached the server under a foreign
 name (DNS rebinding). Other pages cannot show this one in a frame. Programs send no
-Origin and are let in. With a token (`server.token_check`), nobody is let in without it,
-and the name does not count: a page under a foreign name has neither the token nor the
-cookie. So the proxy of Jupyter, which shows the page under names that this server
-cannot know, is let in with the token. That proxy adds the token to all that Jupyter
-lets through, but Jupyter itself refuses the websockets of pages of another origin, and
-it passes Host and Origin on as they came, so that they are compared here too.
+Origin and may connect.
 
-A server that listens on a network takes its addresses, its host name, and names that
-cannot be bought: the attack needs a name in the DNS of all. Any other name has to be
-allowed as an origin.
+With a token (`server.token_check`), every client needs the token, and the name does not
+count: a page under a foreign name has neither the token nor the cookie. So the token
+admits the proxy of Jupyter, which shows the page under names that this server cannot
+know. That proxy adds the token to all requests that Jupyter admits. Jupyter itself
+refuses the websockets of pages of other origins, and its proxy passes Host and Origin
+on unchanged, so this module compares them too.
 
-What stays weak: without a token, whoever can reach the port can use the page. Passwords
-of users and TLS are the job of a proxy.
+A server that listens on a network accepts its addresses, its host name, and names that
+are not for sale: the attack needs a name in the public DNS. Any other name needs an
+allowed origin.
+
+One weakness remains: without a token, everyone who can reach the port can use the page.
+Passwords of users and TLS are the job of a proxy.
 """
 
 from __future__ import annotations
@@ -35,15 +37,15 @@ from websockets.http11 import Request, Response
 from sambot_viz.options import Options
 
 _HOST = re.compile(r"([A-Za-z0-9._-]+|\[[0-9A-Fa-f:.]+\])(:[0-9]+)?")
-"""A Host header; it goes into the policy of the page."""
+"""A Host header; it becomes part of the page's policy."""
 _NOT_FOR_SALE = (".local", ".lan", ".internal", ".home.arpa")
-"""Names with these ends are only known in one network."""
+"""Ends of names that exist in one network only."""
 _ONCE = ("Origin", "Upgrade", "If-None-Match", "Accept-Encoding")
-"""Headers that are read, and so may be there once at most."""
+"""Headers that the server reads, and that a request may therefore contain only once."""
 
 
 def only_this_machine(host: str) -> bool:
-    """Whether an address or name can only be reached from this machine."""
+    """Return whether only this machine can reach an address or name."""
     address = _address(host)
     return host == "localhost" if address is None else address.is_loopback
 
@@ -55,15 +57,15 @@ def is_welcome(
     allowed: Sequence[str] = (),
     any_name: bool = False,
 ) -> bool:
-    """Whether a request may be answered.
+    """Return whether a request may be answered.
 
     Args:
         host: its Host header, such as "127.0.0.1:8080".
-        origin: its Origin header, or None (programs, and pages by themselves).
-        listening_on: the address the server listens on.
-        allowed: origins that were allowed, such as "https://lab.example.org".
-        any_name: whether the server may be reached by a name that it does not know,
-            because it asks for a token.
+        origin: its Origin header, or None (programs, and pages opened directly).
+        listening_on: address that the server listens on.
+        allowed: allowed origins, such as "https://lab.example.org".
+        any_name: whether users may reach the server by a name that it does not know,
+            because it requires a token.
     """
     if origin is not None and origin in allowed:
         return True
@@ -75,11 +77,11 @@ def is_welcome(
 
 
 def content_policy(host: str, listening_on: str, allowed: Sequence[str] = ()) -> str:
-    """The Content-Security-Policy: what the page may ask for, and who may frame it.
+    """Return the Content-Security-Policy: requests of the page, and who may frame it.
 
-    viser's page would take a robot, and with it scripts, from any server that its
-    address names (``?websocket=``, ``?playbackPath=``); it may only ask its own.
-    Notebooks on this machine may show it, when the server is for this machine.
+    viser's page would load a robot, and with it scripts, from any server in its address
+    (``?websocket=``, ``?playbackPath=``); the policy limits it to its own server.
+    Notebooks on this machine may show the page of a server for this machine.
 
     Args:
         host: the Host header of the request for the page.
@@ -88,7 +90,7 @@ def content_policy(host: str, listening_on: str, allowed: Sequence[str] = ()) ->
     """
     local = ("http://localhost:*", "http://127.0.0.1:*")
     pages = ("'self'", *(local if only_this_machine(listening_on) else ()), *allowed)
-    # Not all browsers take 'self' for websockets too.
+    # Some browsers do not apply 'self' to websockets.
     own = f"'self' ws://{host} wss://{host} data: blob:"
     return f"connect-src {own}; frame-ancestors {' '.join(pages)}"
 
@@ -101,7 +103,7 @@ def _address(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
 
 
 def _is_own_name(name: str, listening_on: str) -> bool:
-    """Whether no page of a stranger can have been reached under this name."""
+    """Return whether no foreign page can have been loaded under this name."""
     if only_this_machine(listening_on):
         return only_this_machine(name)
     if name == "" or _address(name) is not None:
@@ -118,13 +120,13 @@ def _netloc(origin: str) -> str:
 
 
 def hostname(host: str) -> str:
-    """The name in a Host header, without its port; "" for what is not a name."""
+    """Return the name in a Host header, without its port; "" for an invalid name."""
     match = _HOST.fullmatch(host)
     return "" if match is None else match[1].strip("[]").lower()
 
 
 def refusal(request: Request, options: Options) -> Response | None:
-    """Return the answer to a request from where none may come; None for others."""
+    """Return the answer to a request from a forbidden origin; None for others."""
     headers = request.headers
     hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
     if len(hosts) != 1 or any(len(headers.get_all(name)) > 1 for name in _ONCE):

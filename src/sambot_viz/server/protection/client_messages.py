@@ -1,6 +1,6 @@
-"""The messages of viser that a client may send: their fields, types and limits.
+"""The viser messages that a client may send: their fields, types and limits.
 
-The names are viser's own; what is not in this list is not a message.
+The names are viser's. Messages that are not in this list are refused.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal
 import msgspec
 
 SHORTEST = 1e-6
-"""Of the distance from a camera to its target [m], and of its up direction."""
+"""Shortest distance from a camera to its target [m], and length of its up direction."""
 _Number = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
 _Vector = tuple[_Number, _Number, _Number]
 _Pixels = Annotated[int, msgspec.Meta(ge=0, le=2**15)]
@@ -23,7 +23,7 @@ class _Message(msgspec.Struct, tag_field="type", forbid_unknown_fields=True):
 
 
 class CameraMoved(_Message, tag="ViewerCameraMessage"):
-    """Where a client's camera is."""
+    """The pose of a client's camera."""
 
     wxyz: tuple[_Number, _Number, _Number, _Number]
     position: _Vector
@@ -36,25 +36,25 @@ class CameraMoved(_Message, tag="ViewerCameraMessage"):
     up_direction: _Vector
 
     def shows_a_direction(self) -> bool:
-        """Return whether a picture can be drawn; viser raises when it turns others."""
-        # The difference must survive a move of both points by as much again.
+        """Return whether a picture can be drawn; viser raises on other poses."""
+        # The difference must survive a shift of both points by the same amount again.
         shortest = SHORTEST + max(map(abs, self.position)) * 1e-12
         away = math.dist(self.position, self.look_at)
         return away > shortest and math.hypot(*self.up_direction) > SHORTEST
 
 
 class CameraReport(msgspec.Struct, forbid_unknown_fields=True):
-    """Where a page's camera is, relative to the frame that its view follows.
+    """The pose of a page's camera, relative to the frame that its view follows.
 
     It comes on the page's own channel, in JSON.
 
     Attributes:
-        camera: the number of the camera that the page was asked for last.
-        position: of the camera [m].
-        look_at: the point in the middle of its picture [m].
-        up: up in the picture.
+        camera: number of the last camera that the server has requested.
+        position: position of the camera [m].
+        look_at: point in the middle of its picture [m].
+        up: up direction of the picture.
         fov: vertical field of view [rad].
-        scale: pixels per metre of one that looks straight down; None for others.
+        scale: pixels per metre of a camera that looks straight down; None for others.
     """
 
     camera: int
@@ -66,7 +66,7 @@ class CameraReport(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class SetValue(_Message, tag="GuiUpdateMessage"):
-    """A widget was moved, or a button pressed."""
+    """A user has moved a widget, or pressed a button."""
 
     uuid: _Id
     updates: dict[str, Any]
@@ -85,7 +85,7 @@ class Point(_Message, tag="ScenePointerMessage"):
 
 
 class PictureDrawn(_Message, tag="GetRenderResponseMessage"):
-    """The picture that the server has asked this client for."""
+    """The picture that the server has requested from this client."""
 
     payload: bytes
     render_uuid: _Id
@@ -96,7 +96,7 @@ _DECODER = msgspec.msgpack.Decoder(ClientMessage)
 
 
 def decode(raw: bytes) -> ClientMessage | None:
-    """Return the message in a websocket frame; None when it is not one of these."""
+    """Decode the message in a websocket frame; None for messages not in this list."""
     try:
         return _DECODER.decode(raw)
     except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):

@@ -1,18 +1,18 @@
-"""The inbound filter: a short list of messages, each checked before viser sees it.
+"""The inbound filter: checks messages against a short list before viser sees them.
 
 viser itself takes any message from anyone: any attribute of a widget, uploads of any
 size, values that cannot be sent to the other browsers. Here a client may report its
-camera, set a visible and enabled widget that a script has
-added to a value of the widget's type, click or draw a rectangle with the current tool,
-and send the picture that it was asked for. Everything else is dropped: clicks on nodes,
-drags, transform controls, buttons that are held, keys of commands, forms, uploads.
-Nothing is accepted from a browser before its first camera, because viser runs no
-callback, and so none of our checks, before that. What concerns our rows comes through
-the page's own channel (`server.channel`).
+camera, set a script's visible and enabled widget to a value of the widget's type,
+click or draw a rectangle with the current tool, and send the picture that the server
+has requested. The filter drops everything else: clicks on nodes, drags, transform
+controls, held buttons, command keys, forms, uploads. It accepts no other message from a
+browser before the first camera, because viser runs no callback, and so none of our
+checks, before that. Messages about our rows come through the page's own channel
+(`server.channel`).
 
-A message is limited in size, and a browser in messages per second: one that sends more
-is slowed down, by reading less from its connection. One that does not read what it is
-sent is disconnected.
+Each message has a size limit, and each browser a rate limit: the server slows down a
+browser that sends more, by reading less from its connection. It disconnects a browser
+that does not read its messages.
 """
 
 from __future__ import annotations
@@ -41,9 +41,9 @@ from sambot_viz.server.protection.client_messages import (
 )
 
 CLOSE_TIME = 1.0
-"""How long the end of the program waits for a browser to close its connection [s]."""
+"""Longest wait, at the program's end, for a browser to close its connection [s]."""
 LOG_PERIOD = 10.0
-"""Refused messages are reported once in so long at most [s]."""
+"""Shortest time between two reports of refused messages [s]."""
 _LARGEST_INT = 2**53
 """Integers beyond this one are not exact in a browser."""
 
@@ -51,31 +51,31 @@ _log = logger(__name__)
 
 
 class ClientHandler(Protocol):
-    """Takes what has passed the filter; the clients are named by their numbers."""
+    """Handles messages that pass the filter; numbers identify the clients."""
 
     def take_edit(self, client_id: int, edit: object) -> None:
-        """Take an edit of a row, on the event loop; it is checked who may do what."""
+        """Handle an edit of a row, on the event loop, after a check of permissions."""
         ...
 
     def take_camera(self, client_id: int, report: CameraReport) -> None:
-        """Take what a page reports of its camera, on the event loop."""
+        """Handle a page's report of its camera, on the event loop."""
         ...
 
     def may_edit(self, client_id: int) -> bool:
-        """Return whether a client may set the widgets of a program, which all have."""
+        """Return whether a client may set a program's widgets, which all see."""
         ...
 
     def behind(self, client_id: int, action: Callable[[], None]) -> None:
-        """Run an action, in any thread, behind all that a client has caused."""
+        """Run an action, in any thread, after all effects of a client so far."""
         ...
 
     def rows_of(self, client_id: int) -> ClientRows | None:
-        """Return the rows that a client sees; None when it has none yet."""
+        """Return the rows of a client; None before it has any."""
         ...
 
 
 class NoSessions:
-    """Handles clients as long as there is no session: their edits are dropped."""
+    """Handles clients while there is no session: drops their edits."""
 
     def take_edit(self, client_id: int, edit: object) -> None:
         """Drop an edit."""
@@ -97,11 +97,11 @@ class NoSessions:
 
 
 class InboundFilter:
-    """Checks what one client sends.
+    """Checks the messages of one client.
 
     Args:
         server: the server.
-        handler: gives who takes the edits at present.
+        handler: returns the current receiver of edits.
         client_id: the client's number.
         connection: the client's connection.
     """
@@ -127,7 +127,7 @@ class InboundFilter:
             pause = self._connection.rate.take()
             if pause > 0.0:
                 if self._connection.state is not State.OPEN:
-                    # It has left a flood, which nobody has to wait for.
+                    # The client left during a flood; its messages can be dropped.
                     continue
                 await asyncio.sleep(pause)
             await self._in_flight.wait()
@@ -142,7 +142,7 @@ class InboundFilter:
         self._handler().behind(self._client_id, action)
 
     def _reason_against(self, message: ClientMessage | None) -> str | None:
-        """Return why a message is refused; None when it may be handled."""
+        """Return why a message must be refused; None when it may be handled."""
         if message is None:
             return "not one of the messages that a page of this server sends"
         if isinstance(message, CameraMoved):
@@ -172,24 +172,24 @@ class InboundFilter:
         options: Sequence[str] | None = getattr(handle, "options", None)
         if fits(handle.value, value) and (options is None or value in options):
             return None
-        # The page shows what its user entered; send it the value that is kept.
+        # The page shows its user's input; send it the value that the server keeps.
         viser_private.send_value(self._server, self._client_id, handle)
         return "a value that is not of its widget's type"
 
     def _may_set(self, uuid: str) -> bool:
-        """Return whether a client may set a widget: its own, or one of all."""
+        """Return whether a client may set a widget, its own or a common one."""
         shared = viser_private.is_for_all(self._server, uuid)
         return not shared or self._handler().may_edit(self._client_id)
 
     def _usable(self, uuid: str) -> viser.GuiInputHandle[Any] | None:
-        """Return the widget, if a user of this client can see and use it."""
+        """Return the widget, if this client's user can see and use it."""
         handle = viser_private.input_handle(self._server, self._client_id, uuid)
         usable = handle is not None and handle.visible and not handle.disabled
         return handle if usable else None
 
 
 def fits(held: object, value: object) -> bool:
-    """Return whether a value has the type of the value that a widget holds."""
+    """Return whether a value has the type of a widget's value."""
     if isinstance(held, bool):
         return isinstance(value, bool)
     if isinstance(held, int | float):
@@ -217,7 +217,7 @@ _next_report = 0.0
 
 
 def report(client_id: int | None, reason: str) -> None:
-    """Log that a message was dropped; rarely, because there may be many."""
+    """Log a dropped message; rarely, because there may be many."""
     global _next_report
     if (now := time.monotonic()) >= _next_report:
         _next_report = now + LOG_PERIOD

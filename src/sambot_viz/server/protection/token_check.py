@@ -1,13 +1,13 @@
-"""The secrets in links: one lets a browser in, one makes it a presenter's.
+"""The secrets in links: one admits a browser, one makes it a presenter's.
 
-The first page that is opened with ``?token=…`` is answered with a cookie and the same
-address without the token, which so is neither in the history nor on a screen that is
-shared. Programs may send it with every request, as ``Authorization: Bearer …`` or in
-the address. Where there is a presenter, the links say ``?view=…`` and ``?present=…``;
-only the secret counts, so a link that was noted down as ``?token=…`` still works.
+The server answers the first page opened with ``?token=…`` with a cookie and the same
+address without the token. So the token is neither in the history nor on a shared
+screen. Programs may send it with every request, as ``Authorization: Bearer …`` or in
+the address. Where there is a presenter, the links contain ``?view=…`` and
+``?present=…``; only the secret counts, so an old link with ``?token=…`` still works.
 
-What stays weak: without TLS, whoever reads along on the network reads the token too; a
-browser that has it can pass it on.
+One weakness remains: without TLS, an eavesdropper on the network can read the token. A
+browser that has the token can pass it on.
 """
 
 from __future__ import annotations
@@ -30,33 +30,33 @@ from sambot_viz.server.connections.page_files import (
 )
 
 WRONG_ANSWER = 1.0
-"""The answer to a wrong token takes so long [s]."""
+"""Delay of the answer to a wrong token [s]."""
 _KEPT = "%!$&'()*+,;=:@~"
-"""In the last part of a path, what is sent back as it came."""
+"""Characters that the last part of a path keeps in an answer."""
 SECRET_NAMES = ("token", "view", "present")
-"""The parameters of an address that may hold a secret."""
+"""Parameters of an address that may contain a secret."""
 Knows = Callable[[str], bool]
-"""Takes the Cookie header of a request."""
+"""Receives the Cookie header of a request."""
 _REMEMBERED = 30 * 24 * 3600
-"""How long a browser keeps the cookie [s]."""
+"""Time for which a browser keeps the cookie [s]."""
 
 
 class TokenCheck:
-    """Lets in who has the token, and knows the presenter by another one.
+    """Admits clients with the token, and recognises presenters by a second secret.
 
-    Guesses are slowed down for all together: so many seconds for an answer, so many
-    answers at a time, one token and the cookies in a request. Who comes while that many
-    guesses wait may try again later.
+    Guesses slow down for all clients together: a delay per answer, a limit on answers
+    at a time, and on the token and cookies in a request. A client that comes while the
+    limit of guesses is waiting may try again later.
 
     Args:
-        token: the secret without which nobody is let in; None lets everyone in.
-        presenter: the secret of presenters, which lets them in too.
-        base_path: where the page is; the cookie is sent to nowhere else. With "/" a
-            browser sends it to where the page was opened, which is below the path of a
-            proxy that takes it away, such as that of Jupyter.
-        knows: says whether the cookies of a request are those of a user whom another
-            program has let in, such as Jupyter; this is then as good as the token. It
-            is called in a thread.
+        token: secret that every client needs; None admits everyone.
+        presenter: secret of presenters, which admits them too.
+        base_path: path of the page and scope of the cookie. With "/", a browser sends
+            the cookie to the folder where it opened the page, which is below the path
+            of a proxy that removes this path, such as that of Jupyter.
+        knows: returns whether the cookies of a request belong to a user whom another
+            program, such as Jupyter, has admitted; that is then as good as the token.
+            Called in a thread.
     """
 
     def __init__(
@@ -69,8 +69,8 @@ class TokenCheck:
         self._needed = token is not None
         self._knows = knows
         self._presenter = None if presenter is None else presenter.encode()
-        # By the name of the cookie that remembers it. Cookies are shared by all ports
-        # of a host, where other servers may be.
+        # By the name of the cookie that holds it. Cookies are shared by all ports of a
+        # host, where other servers may run.
         self._tokens = {
             f"sambot-viz-{hashlib.sha256(b'cookie ' + secret).hexdigest()[:12]}": secret
             for secret in (one.encode() for one in (token, presenter) if one)
@@ -79,7 +79,7 @@ class TokenCheck:
         self._waiting = 0
 
     def refusal(self, request: Request) -> Response | Awaitable[Response] | None:
-        """The answer to a request that may not come in, or is to come in again.
+        """Return the answer to a request that may not enter, or must come again.
 
         Returns:
             None for a request with the token.
@@ -120,8 +120,8 @@ class TokenCheck:
     async def _ask(
         self, knows: Knows, cookies: str, address: str, headers: Headers
     ) -> Response:
-        """Return the page with the cookie of the token, for who is logged in."""
-        # Each costs the other program a request: they are counted with the guesses.
+        """Return the page with the token's cookie, for a logged-in user."""
+        # Each costs the other program a request, so they count as guesses.
         self._waiting += 1
         try:
             known = await asyncio.to_thread(knows, cookies)
@@ -132,30 +132,30 @@ class TokenCheck:
         return self._remember(next(iter(self._tokens)), address, headers)
 
     def is_presenter(self, request: Request) -> bool:
-        """Whether a request comes from a browser that has the presenter's link."""
+        """Return whether the browser of a request has the presenter's link."""
         if self._presenter is None:
             return False
         sent = [*_split(request.path)[1], *_bearers(request.headers)]
         sent += self._cookies(request.headers).values()
-        # All are looked at, so that the time says nothing.
+        # Compare all of them, so that the time reveals nothing.
         return any([_equal(one, self._presenter) for one in sent])
 
     def _name_of(self, given: bytes) -> str | None:
-        """The cookie of the token that this is; None when it is none."""
+        """Return the name of the cookie for this token; None for a wrong token."""
         right = [name for name, one in self._tokens.items() if _equal(given, one)]
         return right[0] if right else None
 
     def _cookies(self, headers: Headers) -> dict[str, bytes]:
-        """The tokens in the cookies of a request, by the names of these.
+        """Return the tokens in the cookies of a request, by cookie name.
 
-        Other programs of the same host have cookies that no parser may know.
+        Other programs on the host may have cookies that no parser understands.
         """
         parts = [part for text in headers.get_all("Cookie") for part in text.split(";")]
         pairs = (part.strip().partition("=") for part in reversed(parts))
         return {name: _bytes(one) for name, _, one in pairs if name in self._tokens}
 
     def _remember(self, name: str, address: str, headers: Headers) -> Response:
-        """The same page without the token in its address, and with a cookie."""
+        """Return a redirect to the page without the token, with a cookie."""
         cookie = remembered(name, self._tokens[name].decode(), self._base, headers)
         more = {"Location": address, "Set-Cookie": cookie}
         return plain_page(http.HTTPStatus.SEE_OTHER, "See other", "", more)
@@ -175,13 +175,13 @@ class TokenCheck:
 
 
 def remembered(name: str, value: str, base_path: str, headers: Headers) -> str:
-    """Return a Set-Cookie header that a browser keeps, and no script of a page reads.
+    """Return a Set-Cookie header for a cookie that scripts of a page cannot read.
 
     Args:
-        name: of the cookie.
+        name: name of the cookie.
         value: a secret.
-        base_path: where the page is; as for `TokenCheck`.
-        headers: of the request that is answered.
+        base_path: path of the page; as for `TokenCheck`.
+        headers: headers of the request.
     """
     path = "" if base_path == "/" else f"Path={base_path}; "
     tls = "https" in headers.get_all("X-Forwarded-Proto")
@@ -191,12 +191,12 @@ def remembered(name: str, value: str, base_path: str, headers: Headers) -> str:
 
 
 def _equal(one: bytes, two: bytes) -> bool:
-    """Compare secrets; the time that it takes says nothing about them."""
+    """Compare secrets in a time that does not depend on their contents."""
     return hmac.compare_digest(one, two)
 
 
 def _bearers(headers: Headers) -> list[bytes]:
-    """The tokens that a program sends beside the address."""
+    """Return the tokens that a program sends outside the address."""
     pairs = (text.partition(" ") for text in headers.get_all("Authorization"))
     return [_bytes(one.strip()) for kind, _, one in pairs if kind.lower() == "bearer"]
 
@@ -211,12 +211,12 @@ def _no_token() -> Response:
 
 
 def _bytes(text: str) -> bytes:
-    """A text of a request, which may hold bytes that are no text."""
+    """Encode a text of a request, which may contain bytes that are not text."""
     return text.encode(errors="replace")
 
 
 def _split(path: str) -> tuple[str, list[bytes]]:
-    """Where a path leads without the tokens in it, relative to it, and these."""
+    """Return a path without its tokens, relative to itself, and the tokens."""
     # Not urlsplit, which raises for some paths that a client can send.
     where, _, text = path.partition("?")
     query = parse_qsl(text, keep_blank_values=True)
