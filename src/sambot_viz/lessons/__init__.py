@@ -1,4 +1,4 @@
-"""Lessons: steps with conditions that a robot and its files meet, and their grades."""
+"""Lessons: steps with conditions on a robot and its files, and grades."""
 
 from __future__ import annotations
 

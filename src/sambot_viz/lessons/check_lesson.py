@@ -1,4 +1,4 @@
-"""What a teacher wants to know of a lesson before students do."""
+"""Checks a lesson for its teacher, before students use it."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ def check_lesson(lesson: Lesson, solution: Path | None = None) -> list[Problem]:
 
     Args:
         lesson: the lesson.
-        solution: the folder with what passes; None for the one that the lesson names.
+        solution: folder with a correct solution; None for the lesson's own.
 
     Returns:
-        An error for each step that the solution fails, and for a start that passes
-        all; a warning for a step that the start passes, and for one without hints.
+        An error for each step that the solution fails, and for a start that passes all
+        steps; a warning for a step that the start passes, and for one without hints.
     """
     found: list[Problem] = []
     folder = solution or named_solution(lesson)
@@ -93,18 +93,18 @@ def _of_start(lesson: Lesson, name: str, track: Track) -> Iterator[Problem]:
 
 
 def named_solution(lesson: Lesson) -> Path | None:
-    """Return the solution that a lesson names; None where it names none."""
+    """Return the solution that a lesson names; None if it names none."""
     return lesson.folder / lesson.solution if lesson.solution else None
 
 
 def given_in(lesson: Lesson, path: Path, name: str, track: Track) -> HandedIn | None:
-    """Return what a folder or a file has for a track; None where it has nothing.
+    """Return the part of a folder or a file for a track; None if it has none.
 
     Args:
         lesson: the lesson.
         path: a solution, or a start.
-        name: of the track.
-        track: the way through the lesson.
+        name: name of the track.
+        track: the track.
     """
     if path.is_file():
         return HandedIn(path.parent, name, path, True)

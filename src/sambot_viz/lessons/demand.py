@@ -1,4 +1,4 @@
-"""One thing that a step demands: a condition, or one of several."""
+"""A demand of a step: one condition, or several alternatives."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ _COMMON = ("only", "hidden", "says")
 
 @dataclass(frozen=True, slots=True)
 class Demand:
-    """A condition, with what holds for all kinds.
+    """A condition with the properties that all kinds share.
 
     Attributes:
-        conditions: one of them has to hold.
-        only: the track that it is for; empty for all.
-        hidden: what is expected is not said before the last hint.
-        says: what is said when it does not hold, in place of what is expected.
+        conditions: alternatives; one of them must hold.
+        only: track of the demand; empty for all tracks.
+        hidden: whether the expected value stays hidden until the last hint.
+        says: message in place of the expected value when the demand fails.
     """
 
     conditions: tuple[Condition, ...]
@@ -42,7 +42,7 @@ class Demand:
     says: str = ""
 
     def unmet(self, work: Work) -> Sequence[Unmet]:
-        """Return what does not hold; of several conditions, of the nearest one.
+        """Return the unmet parts; of several conditions, those of the nearest one.
 
         Raises:
             RobotError: the model cannot be read.
@@ -52,7 +52,7 @@ class Demand:
 
     @property
     def subject(self) -> str:
-        """What it is about, for one that holds, such as "joint: left_wheel_joint"."""
+        """The subject of a met demand, such as "joint: left_wheel_joint"."""
         first = self.conditions[0]
         kind = next(name for name, cls in KINDS.items() if type(first) is cls)
         words, names = kind.replace("-", " "), ", ".join(_names_in(first))
@@ -60,7 +60,7 @@ class Demand:
 
 
 def _names_in(condition: Any) -> Iterator[str]:
-    """Give the names that a condition needs; of several that it takes, the first."""
+    """Yield the names that a condition needs; of alternative names, the first."""
     for one in fields(condition):
         value: Any = getattr(condition, one.name) if one.default is MISSING else ""
         several = cast(
@@ -117,7 +117,7 @@ def _read_condition(
         report.unknown(key, "kind", "the table of conditions", [*KINDS, "any"])
         return ()
     if isinstance(value, yaml.ScalarNode) and not value.value:
-        # A kind without keys, such as "- no-errors:", is right where none is needed.
+        # A kind without keys, such as "- no-errors:", is valid if it needs none.
         value = yaml.MappingNode("map", [], key.start_mark, key.end_mark)
     of = f"the condition {key.value}"
     read = read_record(KINDS[key.value], of, value, report)
@@ -128,7 +128,7 @@ DEMAND = ValueKind("a condition, such as link: {name: base_link}", _read_demand)
 
 
 def explained(error: RobotError) -> Unmet:
-    """Say why a model cannot be read, without how to fix it."""
+    """Say why a model cannot be read, without the fix."""
     errors = (p for p in error.problems if p.severity == "error")
     problem = next(errors, error.problems[0])
     return of_problem(

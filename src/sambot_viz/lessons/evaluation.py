@@ -1,4 +1,4 @@
-"""Which steps of a lesson hold for what a student has written."""
+"""Evaluates which steps of a lesson a student's files pass."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _ELSE = "what is expected is said with the last hint"
 
 @dataclass(frozen=True, slots=True)
 class StepFault:
-    """Something that does not hold.
+    """A part of a demand that does not hold.
 
     Attributes:
-        unmet: what was found, what was expected, and where.
-        message: both in words.
+        unmet: the found and the expected value, and the place.
+        message: both values in words.
     """
 
     unmet: Unmet
@@ -31,11 +31,11 @@ class StepFault:
 
 @dataclass(frozen=True, slots=True)
 class DemandResult:
-    """What became of one thing that a step demands.
+    """The result of one demand of a step.
 
     Attributes:
-        subject: what it is about; empty when the model cannot be read.
-        faults: what does not hold of it.
+        subject: subject of the demand; empty when the model cannot be read.
+        faults: parts that do not hold.
     """
 
     subject: str
@@ -44,15 +44,15 @@ class DemandResult:
 
 @dataclass(frozen=True, slots=True)
 class StepResult:
-    """What became of a step.
+    """The result of a step.
 
     Attributes:
-        number: of the step in the lesson, from 1.
-        name: of the step.
-        title: its heading.
-        points: what it has earned.
-        max_points: what it can earn.
-        message: what does not hold, one line each; empty when all holds.
+        number: number of the step in the lesson, from 1.
+        name: name of the step.
+        title: heading of the step.
+        points: earned points.
+        max_points: points that the step can earn.
+        message: unmet demands, one line each; empty when all hold.
     """
 
     number: int
@@ -64,13 +64,13 @@ class StepResult:
 
     @classmethod
     def of(cls, lesson: Lesson, step: LessonStep, message: str) -> StepResult:
-        """Return the result of a step from what does not hold in it."""
+        """Return the result of a step with these unmet demands."""
         number, points = lesson.steps.index(step) + 1, 0.0 if message else step.points
         return cls(number, step.name, step.title, points, step.points, message)
 
     @property
     def passed(self) -> bool:
-        """Whether all holds."""
+        """Return whether all demands hold."""
         return not self.message
 
     def as_json(self) -> dict[str, object]:
@@ -87,13 +87,13 @@ class StepResult:
 def outcomes_of(
     step: LessonStep, work: Work, track: str = "", tries: int = 0
 ) -> list[DemandResult]:
-    """Return what holds in a step, and what does not.
+    """Return the results of all demands of a step.
 
     Args:
         step: the step.
-        work: what the student has written.
-        track: the way through the lesson.
-        tries: how often it has failed before; what is hidden comes with the last hint.
+        work: files of the student.
+        track: track of the lesson.
+        tries: number of failed tries so far; the last hint reveals hidden values.
     """
     hides = not step.is_exhausted(track, tries)
     found: list[DemandResult] = []
@@ -101,7 +101,7 @@ def outcomes_of(
         try:
             unmet = demand.unmet(work)
         except RobotError as error:
-            # Every other condition would say the same.
+            # Every other condition would report the same.
             said = explained(error)
             return [DemandResult("", (StepFault(said, said.found),))]
         faults = _in_words(demand, unmet, hides)
@@ -110,7 +110,7 @@ def outcomes_of(
 
 
 def faults_in(outcomes: Iterable[DemandResult]) -> list[StepFault]:
-    """Return what does not hold, each once."""
+    """Return the faults of all results, each once."""
     found: dict[str, StepFault] = {}
     for outcome in outcomes:
         for fault in outcome.faults:
@@ -121,7 +121,7 @@ def faults_in(outcomes: Iterable[DemandResult]) -> list[StepFault]:
 def faults_of(
     step: LessonStep, work: Work, track: str = "", tries: int = 0
 ) -> list[StepFault]:
-    """Return what does not hold in a step; the arguments are as for `outcomes_of`."""
+    """Return the faults of a step; the arguments are as for `outcomes_of`."""
     return faults_in(outcomes_of(step, work, track, tries))
 
 
@@ -141,8 +141,8 @@ def messages(
     """Evaluate steps for files of unknown origin.
 
     Returns:
-        For each step what does not hold, a line each; and why no model could be read,
-        empty where one was.
+        The faults of each step, one line each, and the reason why no model could be
+        read; empty if one could.
     """
     works: dict[Path, Work] = {}
     found: list[str] = []

@@ -1,4 +1,4 @@
-"""Grade what a student has written, in a child process with limits."""
+"""Grades a student's files, in a child process with limits."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ _PACKAGE = Path(__file__).parents[2]
 
 @dataclass(frozen=True, slots=True)
 class Grade:
-    """What a student has reached.
+    """The grade of a student.
 
     Attributes:
-        lesson: the name of the lesson.
-        steps: what became of each step.
-        refusal: why no model could be read; empty where one was.
+        lesson: name of the lesson.
+        steps: results of the steps.
+        refusal: reason why no model could be read; empty if one could.
     """
 
     lesson: str
@@ -37,17 +37,17 @@ class Grade:
 
     @property
     def passed(self) -> bool:
-        """Whether all steps hold."""
+        """Return whether all steps pass."""
         return all(step.passed for step in self.steps)
 
     @property
     def score(self) -> float:
-        """The points of all steps together."""
+        """The sum of the earned points."""
         return sum(step.points for step in self.steps)
 
     @property
     def max_score(self) -> float:
-        """The points that they can earn."""
+        """The sum of the points that the steps can earn."""
         return sum(step.max_points for step in self.steps)
 
     def as_json(self) -> dict[str, object]:
@@ -69,23 +69,23 @@ def grade(
 ) -> Grade:
     """Grade a model, or a folder with one.
 
-    The files are read as those of an unknown person: in a child process with limits
-    of time and memory, and without files outside their folder.
+    The files count as those of an unknown person: a child process with limits of time
+    and memory reads them, and no files outside their folder.
 
     Args:
-        path: the model file, or the folder with the student's files.
-        lesson: the name of a lesson that ships, a lesson.yaml, or the folder of one.
-        step: only this step, by its number from 1 or its name; None for all.
+        path: model file, or folder with the student's files.
+        lesson: name of a bundled lesson, a lesson.yaml, or the folder of one.
+        step: the only step to grade, by its number from 1 or its name; None for all.
 
     Raises:
-        UsageError: there is no such file, lesson or step.
+        UsageError: the file, the lesson or the step does not exist.
         LessonError: the lesson cannot be read.
     """
     opened = open_lesson(Path(lesson))
     steps = opened.steps if step is None else (opened.step(step),)
     given = handed_in(opened, Path(path))
     if given.is_file and step is None:
-        # One of several models was handed in, and no others.
+        # The student has handed in only one of several models.
         own = [one for one in steps if one.model == given.model.name]
         steps = tuple(own) or steps
     return Grade(opened.name, *_in_child(opened, steps, given))
@@ -94,7 +94,7 @@ def grade(
 def _in_child(
     lesson: Lesson, steps: Sequence[LessonStep], given: HandedIn
 ) -> tuple[tuple[StepResult, ...], str]:
-    """Return the results of a child process, and why no model could be read."""
+    """Return a child process's results, and the reason why no model could be read."""
     seconds = limits.GRADE_TIME.value
     order = {
         "import_path": [str(_PACKAGE), *filter(None, sys.path)],

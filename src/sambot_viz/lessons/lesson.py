@@ -1,4 +1,4 @@
-"""A lesson: its steps, what has to hold, hints and points."""
+"""A lesson: its steps with their conditions, hints and points."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from sambot_viz.lessons.reading.values import (
 
 def _read_markdown(node: yaml.Node, report: LessonReport) -> str | None:
     text = TEXT.read(node, report)
-    # The text of a block begins in the line below its key.
+    # The text of a block starts on the line below its key.
     style = getattr(node, "style", None)
     first = report.place(node).line + (style in ("|", ">"))
     good = True
@@ -49,12 +49,12 @@ MARKDOWN = ValueKind("a text", _read_markdown)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Hint:
-    """A help that comes after some tries.
+    """A hint that appears after some failed tries.
 
     Attributes:
         after: number of failed tries.
         text: Markdown.
-        only: the track that it is for; empty for all.
+        only: track of the hint; empty for all tracks.
     """
 
     after: int = given(COUNT)
@@ -64,11 +64,11 @@ class Hint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Track:
-    """A way through a lesson, such as one for each format of models.
+    """A variant of a lesson, such as one for each model format.
 
     Attributes:
         model: the model file, in the student's folder.
-        start: a folder or a file to begin with, beside the lesson; empty for nothing.
+        start: folder or file with the start state, beside the lesson; empty for none.
     """
 
     model: str = given(TEXT)
@@ -91,14 +91,14 @@ class LessonStep:
     """One step.
 
     Attributes:
-        name: how it is called on the command line and in results.
-        title: its heading.
+        name: name on the command line and in results.
+        title: heading.
         text: Markdown.
-        in_track: tracks, and the Markdown that follows it there.
-        conditions: what has to hold.
-        hints: in the order in which they come.
-        points: for the whole step.
-        model: the model file, where it is not that of the track.
+        in_track: track → Markdown that follows the text there.
+        conditions: conditions of the step.
+        hints: hints, in order of appearance.
+        points: points for the whole step.
+        model: the model file, where it differs from that of the track.
     """
 
     name: str = given(TEXT)
@@ -113,7 +113,7 @@ class LessonStep:
     model: str = given(TEXT, "")
 
     def demands(self, track: str) -> Sequence[Demand]:
-        """Return what has to hold in a track."""
+        """Return the demands of the step in a track."""
         return [one for one in self.conditions if one.only in ("", track)]
 
     def shown_hints(self, track: str, tries: int) -> Sequence[Hint]:
@@ -121,7 +121,7 @@ class LessonStep:
         return [h for h in self._hints(track) if h.after <= tries]
 
     def is_exhausted(self, track: str, tries: int) -> bool:
-        """Tell whether the last hint has come, so that nothing is hidden any longer."""
+        """Return whether the last hint has appeared, so that nothing stays hidden."""
         hints = self._hints(track)
         return bool(hints) and len(self.shown_hints(track, tries)) == len(hints)
 
@@ -138,15 +138,15 @@ class Lesson:
 
     Attributes:
         file: its lesson.yaml, as the user wrote it.
-        name: how it is called.
-        title: its heading.
-        about: what is learnt, one or two sentences.
+        name: name of the lesson.
+        title: heading.
+        about: subject of the lesson, in one or two sentences.
         model: the model file, in the student's folder; empty with tracks.
-        start: a folder or a file to begin with; empty for nothing.
-        solution: a folder or a file that passes; with tracks, one folder for each.
+        start: folder or file with the start state; empty for none.
+        solution: folder or file that passes; with tracks, one folder for each.
         given_tracks: names and tracks.
         fixes: whether the page offers to apply the fixes of problems.
-        steps: in order.
+        steps: the steps, in order.
     """
 
     file: Path
@@ -164,12 +164,12 @@ class Lesson:
 
     @property
     def folder(self) -> Path:
-        """The folder with its pictures and files to begin with."""
+        """The folder with its pictures and start files."""
         return self.file.parent
 
     @property
     def tracks(self) -> Mapping[str, Track]:
-        """The tracks; a lesson that names none has one without a name."""
+        """The tracks; a lesson without named tracks has one without a name."""
         alone = Track(model=self.model or self.steps[0].model, start=self.start)
         return dict(self.given_tracks) or {"": alone}
 
@@ -177,7 +177,7 @@ class Lesson:
         """Return a step by its number from 1, or its name.
 
         Raises:
-            UsageError: there is no such step.
+            UsageError: the step does not exist.
         """
         if str(wanted).isdigit():
             if 1 <= int(wanted) <= len(self.steps):

@@ -1,4 +1,4 @@
-"""The Markdown of lessons, as blocks: a page shows them without any HTML."""
+"""The Markdown of lessons, as blocks that a page shows without any HTML."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ class TextSpan:
 
 @dataclass(frozen=True, slots=True)
 class TextBlock:
-    """A part of a text.
+    """A block of a text.
 
     Attributes:
-        kind: what it is.
-        lines: the spans of a heading or a paragraph, or of each item of a list.
-        text: of code, as it is; the other text of a picture.
-        word: the language of code, the file of a picture, the level of a heading.
+        kind: kind of the block.
+        lines: spans of a heading or a paragraph, or of each item of a list.
+        text: code, unchanged; alternative text of a picture.
+        word: language of code, file of a picture, level of a heading.
     """
 
     kind: BlockKind
@@ -60,7 +60,7 @@ class TextBlock:
 
 
 def blocks(text: str) -> list[TextBlock]:
-    """Read headings, paragraphs, lists, code and pictures; what is else is text."""
+    """Read headings, paragraphs, lists, code and pictures; all else becomes text."""
     found: list[TextBlock] = []
     lines = text.splitlines()
     at = 0
@@ -72,7 +72,7 @@ def blocks(text: str) -> list[TextBlock]:
 
 
 def _block(lines: Sequence[str], at: int) -> tuple[TextBlock | None, int]:
-    """Return the block that begins in a line, and the line behind it."""
+    """Return the block that starts on a line, and the number of the next line."""
     line = lines[at].strip()
     if not line:
         return None, at + 1
@@ -98,7 +98,7 @@ def _block(lines: Sequence[str], at: int) -> tuple[TextBlock | None, int]:
 
 
 def _begins(line: str) -> bool:
-    """Return whether a line begins another block, or is empty."""
+    """Return whether a line starts another block, or is empty."""
     bare = line.strip()
     kinds = (_FENCE, _HEADING, _PICTURE, _ITEM)
     return not bare or any(kind.fullmatch(bare) for kind in kinds)
@@ -136,15 +136,15 @@ def _spans(words: str) -> tuple[TextSpan, ...]:
 
 
 def pictures(text: str) -> list[str]:
-    """Return the files of the pictures of a text."""
+    """Return the picture files in a text."""
     return [block.word for block in blocks(text) if block.kind == "picture"]
 
 
 def faults(text: str) -> Iterator[tuple[int, str, str]]:
-    """Give what lessons do not have: HTML, other addresses than those of the web.
+    """Yield parts that lessons do not support: HTML, and addresses outside the web.
 
     Returns:
-        Line from 0, what is wrong, what to write.
+        Line from 0, the fault, and the remedy.
     """
     in_code = False
     for number, line in enumerate(text.splitlines()):

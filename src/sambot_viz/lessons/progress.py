@@ -1,4 +1,4 @@
-"""How far a student is, in a small file in the student's folder."""
+"""A student's progress, in a small file in the student's folder."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from sambot_viz.lessons.lesson import Lesson, LessonStep
 from sambot_viz.text import json_text
 
 PROGRESS_FILE = ".sambot-lesson.json"
-"""In the student's folder; it has a part for each lesson."""
+"""Name of the file in the student's folder; it has a part for each lesson."""
 
 
 @dataclass(frozen=True, slots=True)
 class StepProgress:
-    """What became of a step.
+    """A student's progress in a step.
 
     Attributes:
-        tries: how often it has failed.
-        passed: whether it has held once.
-        shown: whether it is the one that the student has read last.
+        tries: number of failed tries.
+        passed: whether the step has passed once.
+        shown: whether the student has read this step last.
     """
 
     tries: int = 0
@@ -33,16 +33,16 @@ class StepProgress:
 
 
 class Progress:
-    """How far a student is in a lesson.
+    """A student's progress in a lesson.
 
     Args:
         folder: the student's folder.
-        lesson: the name of the lesson.
+        lesson: name of the lesson.
 
     Attributes:
-        file: keeps it.
+        file: file with the progress.
 
-    A file that is damaged counts as none: the student begins again with no tries.
+    A damaged file counts as missing: the student starts again with no tries.
     """
 
     def __init__(self, folder: Path, lesson: str) -> None:
@@ -51,11 +51,11 @@ class Progress:
         self._steps = dict(_steps(_read(self.file).get(lesson)))
 
     def of(self, step: str) -> StepProgress:
-        """Return what became of a step."""
+        """Return the progress in a step."""
         return self._steps.get(step, StepProgress())
 
     def note(self, result: StepResult) -> None:
-        """Count a try; a step that has held once stays passed."""
+        """Count a try; a step that has passed once stays passed."""
         before = self.of(result.name)
         failed = not result.passed and not before.passed
         self._steps[result.name] = replace(
@@ -65,15 +65,15 @@ class Progress:
         )
 
     def show(self, step: str) -> None:
-        """Note which step the student reads."""
+        """Record which step the student reads."""
         for name in {step, *self._steps}:
             self._steps[name] = replace(self.of(name), shown=name == step)
 
     def current(self, lesson: Lesson) -> LessonStep | None:
-        """Return the first step that has not held; None when all have.
+        """Return the first step that has not passed; None when all have.
 
-        It is looked for from the step on that was read last: who leaves out a step
-        goes on behind it.
+        The search starts at the step that the student has read last, so a student who
+        skips a step continues after it.
         """
         steps = lesson.steps
         read = (n for n, step in enumerate(steps) if self.of(step.name).shown)
@@ -82,10 +82,10 @@ class Progress:
         return next((s for s in behind if not self.of(s.name).passed), None)
 
     def save(self) -> None:
-        """Write the file; parts of other lessons stay.
+        """Write the file, and keep the parts of other lessons.
 
         Raises:
-            OSError: it cannot be written.
+            OSError: the file cannot be written.
         """
         rows = {
             name: {"tries": step.tries, "passed": step.passed}
@@ -105,7 +105,7 @@ def _read(file: Path) -> dict[str, Any]:
 
 
 def _steps(rows: Any) -> list[tuple[str, StepProgress]]:
-    """Return what a file says of steps, as far as it is of the right kind."""
+    """Return the valid steps in the rows of a file."""
     found: list[tuple[str, StepProgress]] = []
     known = cast("dict[str, Any]", rows) if isinstance(rows, dict) else {}
     for name, row in known.items():

@@ -1,4 +1,4 @@
-"""From a lesson.yaml, or the name of a lesson that ships, to a `Lesson`."""
+"""Reads a `Lesson` from a lesson.yaml, or from the name of a bundled lesson."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ LESSON_FILE = "lesson.yaml"
 
 
 def lesson_names() -> list[str]:
-    """Return the lessons that ship with the program, sorted."""
+    """Return the names of the bundled lessons, sorted."""
     found = (assets_folder() / "lessons").glob(f"*/{LESSON_FILE}")
     return sorted(file.parent.name for file in found)
 
@@ -36,11 +36,11 @@ def open_lesson(lesson: str | Path) -> Lesson:
     """Return a lesson.
 
     Args:
-        lesson: the name of one that ships, a lesson.yaml, or the folder of one.
+        lesson: name of a bundled lesson, a lesson.yaml, or the folder of one.
 
     Raises:
-        UsageError: there is no such lesson.
-        LessonError: it cannot be read.
+        UsageError: the lesson does not exist.
+        LessonError: the lesson cannot be read.
     """
     path = Path(lesson)
     if path.is_dir() and (path / LESSON_FILE).is_file():
@@ -58,7 +58,7 @@ def read_lesson(path: Path) -> Lesson:
     """Read a lesson.yaml.
 
     Raises:
-        LessonError: it cannot be read; `.problems` has all that is wrong.
+        LessonError: the file is not a valid lesson; `.problems` lists all faults.
     """
     text, file = _text_of(path), str(path)
     fault = fault_in(text)
@@ -94,7 +94,7 @@ def _refused(path: Path, message: str, hint: str) -> LessonError:
 
 
 def _faults(lesson: Lesson) -> Iterator[Problem]:
-    """Give what is wrong between the values of a lesson."""
+    """Yield the contradictions between the values of a lesson."""
     file = str(lesson.file)
 
     def wrong(message: str, hint: str) -> Problem:

@@ -1,4 +1,4 @@
-"""What a recording in the student's folder shows of a robot that ran."""
+"""Observations of a running robot in a recording from the student's folder."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ if TYPE_CHECKING:
 
 _STATUS = "/_action/status"
 SUCCEEDED = 4
-"""The status of a goal of an action that was reached."""
+"""Status of an action's goal that was reached."""
 
 
 @dataclass(slots=True)
 class SeenTopic:
-    """What was seen of a topic.
+    """Observations of a topic.
 
     Attributes:
-        type_name: of its messages.
-        times: when the first and the last message were recorded [ns].
-        count: how many messages there are.
+        type_name: type of its messages.
+        times: recording times of the first and the last message [ns].
+        count: number of messages.
     """
 
     type_name: str
@@ -49,12 +49,12 @@ class SeenTopic:
 
 @dataclass(slots=True)
 class Seen:
-    """What was seen in all messages of a recording.
+    """Observations in all messages of a recording.
 
     Attributes:
-        topics: name → what was seen.
+        topics: name → observations.
         parents: child → parent, of all transforms.
-        goals: for each action of which a goal was reached, its name.
+        goals: names of the actions with a reached goal.
     """
 
     topics: dict[str, SeenTopic] = field(default_factory=dict[str, SeenTopic])
@@ -63,13 +63,13 @@ class Seen:
 
 
 class StudentRecording:
-    """A recording, read once for all that conditions ask.
+    """A recording, read once for all questions of conditions.
 
     Args:
         paths: its files.
 
     Raises:
-        SourceError: one of them cannot be opened.
+        SourceError: a file cannot be opened.
     """
 
     def __init__(self, paths: Sequence[Path]) -> None:
@@ -80,7 +80,7 @@ class StudentRecording:
 
     @cached_property
     def seen(self) -> Seen:
-        """What is there: topics, frames and reached goals."""
+        """The topics, frames and reached goals of the recording."""
         seen = Seen()
         with closing(self._open()) as recording:
             for message in recording.messages():
@@ -88,9 +88,9 @@ class StudentRecording:
         return seen
 
     def path_of(self, parent: str, child: str) -> Iterator[Vector3]:
-        """Give where a frame was in another one, each time it is known again [m].
+        """Yield a frame's position in another one at each transform that sets it [m].
 
-        The newest transforms of the way between both are taken together.
+        Each position combines the newest transforms on the way between the two.
         """
         poses: dict[str, tuple[str, PlainPose]] = {}
         with closing(self._open()) as recording:
@@ -145,7 +145,7 @@ class StudentRecording:
 
 
 def _field(value: Any, name: str) -> Any:
-    """Return a field of a message, which is a dict where its type is not known."""
+    """Return a field of a message, which is a dict where its type is unknown."""
     if isinstance(value, dict):
         return cast("dict[str, Any]", value).get(name)
     return getattr(value, name, None)
@@ -158,7 +158,7 @@ def _has_transforms(topic: str) -> bool:
 def _pose(
     poses: dict[str, tuple[str, PlainPose]], parent: str, child: str
 ) -> PlainPose | None:
-    """Return T_parent_child from the newest transforms; None without a way."""
+    """Return T_parent_child from the newest transforms; None without a connection."""
     found, at = PlainPose(), child
     for _ in range(len(poses) + 1):
         if at == parent:

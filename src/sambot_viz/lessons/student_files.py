@@ -1,4 +1,4 @@
-"""Which model a student hands in, and which track of a lesson it is for."""
+"""Finds the model that a student hands in, and its track of a lesson."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from sambot_viz.lessons.lesson import Lesson, LessonStep
 from sambot_viz.robot.packages.package_index import package_around
 
 _BEGIN = 4096
-"""A model of SDF says so in its first bytes."""
+"""Number of first bytes in which an SDF model reveals its language."""
 BUILT = frozenset({"build", "install", "log"})
-"""Folders of a workspace that no student writes."""
+"""Folders of a workspace that hold build results, not a student's files."""
 
 
 @dataclass(frozen=True, slots=True)
 class HandedIn:
-    """What a student hands in.
+    """Files that a student hands in.
 
     Attributes:
-        folder: the folder with all files; None for that of the model.
-        track: the way through the lesson.
-        model: the model file of the track; it need not exist.
-        is_file: one file was handed in, not a folder.
+        folder: folder with all files; None for the folder of the model.
+        track: track of the lesson.
+        model: model file of the track, which need not exist.
+        is_file: whether the student has handed in one file, not a folder.
     """
 
     folder: Path | None
@@ -46,14 +46,14 @@ class HandedIn:
 
 
 def handed_in(lesson: Lesson, path: Path) -> HandedIn:
-    """Find out what a file or a folder is for a lesson.
+    """Match a file or a folder with a lesson.
 
     Args:
         lesson: the lesson.
         path: a model, or a folder with one.
 
     Raises:
-        UsageError: there is no such file.
+        UsageError: the file does not exist.
     """
     if not path.exists():
         raise UsageError(f"'{path}' does not exist; name a model file or a folder")
@@ -81,7 +81,7 @@ def _track_by_content(lesson: Lesson, path: Path) -> str:
 
 
 def _models(folder: Path, name: str) -> Iterator[Path]:
-    """Give the files of a name at and below a folder; what is built is left out."""
+    """Yield the files with a name at and below a folder, without build results."""
     if (folder / name).is_file():
         yield folder / name
     for file in sorted(folder.glob(f"*/**/{name}")):
@@ -90,7 +90,7 @@ def _models(folder: Path, name: str) -> Iterator[Path]:
 
 
 def folder_of(model: Path, folder: Path) -> Path:
-    """Return the package of a model that is below a folder, else the folder."""
+    """Return the package of a model if it is below a folder, else the folder."""
     package = package_around(model)
     inside = package is not None and package.resolve().is_relative_to(folder.resolve())
     return package if package is not None and inside else folder

@@ -1,4 +1,4 @@
-"""One student's way through a lesson: what is shown, what holds, what comes next."""
+"""One student's work on a lesson: the shown step, its results, and the next step."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from sambot_viz.lessons.work import Work
 from sambot_viz.robot.model import Robot
 
 TEXTS = (".urdf", ".xacro", ".sdf", ".xml", ".py", ".yaml", ".yml", ".rviz", ".txt")
-"""The endings of files that a student writes."""
+"""Endings of the files that a student writes."""
 
 
 class Study:
@@ -33,15 +33,15 @@ class Study:
 
     Args:
         lesson: the lesson.
-        folder: the student's folder; it has to exist.
-        track: the way through the lesson; None for that of the files that are there.
+        folder: the student's folder, which must exist.
+        track: track of the lesson; None for the track of the existing files.
         trusted: as for `load_robot`.
 
     Attributes:
-        folder: the whole path of the student's folder.
+        folder: absolute path of the student's folder.
         lesson: the lesson.
-        track: the way through it.
-        progress: how far the student is.
+        track: track of the lesson.
+        progress: progress of the student.
         trusted: as for `load_robot`.
 
     Raises:
@@ -76,9 +76,9 @@ class Study:
         *,
         trusted: bool = True,
     ) -> Study:
-        """Begin in a folder, which is made, or go on there.
+        """Start in a folder, which is created if missing, or continue there.
 
-        The files to begin with are there then, and the model of the step.
+        Afterwards the start files exist, and the model of the step.
 
         Raises:
             UsageError: a file cannot be written, or the lesson has no such track.
@@ -98,14 +98,14 @@ class Study:
 
     @property
     def step(self) -> LessonStep:
-        """The step that comes next; the last one when all have held."""
+        """The next step; the last one when all have passed."""
         return self.progress.current(self.lesson) or self.lesson.steps[-1]
 
     def begin(self) -> list[Path]:
-        """Copy the files to begin with; those that are there already stay.
+        """Copy the start files; existing files stay.
 
         Returns:
-            What was written.
+            The written files.
 
         Raises:
             OSError: a file cannot be written.
@@ -126,13 +126,13 @@ class Study:
         return written
 
     def model_of(self, step: LessonStep) -> Path:
-        """Return the model file of a step; it need not exist."""
+        """Return the model file of a step, which need not exist."""
         return self._handed_in().model_of(step)
 
     def files(self) -> list[Path]:
-        """Return the whole paths of the folders of the student, and of their files.
+        """Return the absolute paths of the student's folders and files.
 
-        What is built or hidden is left out, and so is what comes behind the limit.
+        The list omits build results and hidden files, and ends at the limit.
         """
         found: list[Path] = []
         for folder, inner, names in os.walk(self.folder):
@@ -143,11 +143,11 @@ class Study:
         return found[: limits.STUDENT_FILES.value]
 
     def texts(self) -> list[Path]:
-        """Return the files of the student that are texts, by their endings."""
+        """Return the student's text files, by their endings."""
         return [path for path in self.files() if path.suffix in TEXTS]
 
     def picture(self, name: str) -> bytes:
-        """Return a picture of the lesson's folder; nothing where it cannot be read."""
+        """Return a picture of the lesson's folder; empty if it cannot be read."""
         folder = self.lesson.folder
         if not is_below(folder / name, [folder.resolve()]):
             return b""
@@ -157,16 +157,16 @@ class Study:
             return b""
 
     def text_of(self, step: LessonStep) -> list[TextBlock]:
-        """Return the text of a step, with that of the track."""
+        """Return the text of a step, with the text for the track."""
         return blocks(f"{step.text}\n\n{dict(step.in_track).get(self.track, '')}")
 
     def hints_of(self, step: LessonStep) -> list[list[TextBlock]]:
-        """Return the hints that have come, after the tries so far."""
+        """Return the hints that have appeared after the tries so far."""
         tries = self.progress.of(step.name).tries
         return [blocks(hint.text) for hint in step.shown_hints(self.track, tries)]
 
     def tries_to_hint(self, step: LessonStep) -> int:
-        """Return after how many tries more the next hint comes; 0 when none is left."""
+        """Return the number of tries until the next hint; 0 when none is left."""
         tries = self.progress.of(step.name).tries
         later = step.shown_hints(self.track, 10**9)[
             len(step.shown_hints(self.track, tries)) :
@@ -180,12 +180,12 @@ class Study:
         problems: Iterable[Problem] | None = None,
         edited: Mapping[str, str] | None = None,
     ) -> Work:
-        """Return what the student has written for a step; the files are read once.
+        """Return a student's work on a step, which reads the files once.
 
         Args:
             step: the step.
-            loaded: the robot, or why there is none, where that is known already.
-            problems: what `check` says, where that is known already.
+            loaded: the robot, or the reason why there is none, if already known.
+            problems: findings of `check`, if already known.
             edited: as for `load_robot`.
         """
         given = self._handed_in()
@@ -199,12 +199,12 @@ class Study:
         )
 
     def outcomes(self, step: LessonStep, work: Work) -> list[DemandResult]:
-        """Return what holds now, and what does not; nothing is counted."""
+        """Return the current results of all demands, without counting a try."""
         tries = self.progress.of(step.name).tries
         return outcomes_of(step, work, self.track, tries)
 
     def look(self, step: LessonStep, work: Work) -> list[StepFault]:
-        """Return what does not hold now; nothing is counted, for each key."""
+        """Return the current faults without counting a try, after each key."""
         return faults_in(self.outcomes(step, work))
 
     def attempt(self, step: LessonStep, work: Work) -> StepResult:
@@ -216,7 +216,7 @@ class Study:
         return self.count(step, self.look(step, work))
 
     def count(self, step: LessonStep, faults: Iterable[StepFault]) -> StepResult:
-        """Count a try by what does not hold, and keep it in the folder.
+        """Count a try with these faults, and save the progress.
 
         Raises:
             OSError: the progress cannot be written.
@@ -228,7 +228,7 @@ class Study:
         return result
 
     def show(self, step: LessonStep) -> None:
-        """Keep in the folder which step the student reads.
+        """Save which step the student reads.
 
         Raises:
             OSError: the progress cannot be written.
@@ -237,7 +237,7 @@ class Study:
         self.progress.save()
 
     def _handed_in(self) -> HandedIn:
-        # To look through all folders for a model that is where it was takes long.
+        # Searching all folders for a model that has not moved takes long.
         known = self._model
         if known is None or not known.is_file():
             found = handed_in(self.lesson, self.folder)

@@ -1,6 +1,6 @@
-"""A lesson as one HTML page for any web server: it has no script and asks for nothing.
+"""A lesson as one HTML page for any web server, without scripts or requests.
 
-What a lesson's files say is escaped; the page can be read, and checks nothing.
+The page escapes all text from a lesson's files. It is for reading and checks nothing.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from sambot_viz.lessons.lesson import Lesson, LessonStep
 from sambot_viz.lessons.markdown import TextBlock, TextSpan, blocks
 
 PICTURES = "pictures"
-"""The folder of the pictures, beside the page."""
+"""Folder of the pictures, beside the page."""
 _TAGS = {"strong": "strong", "em": "em", "code": "code"}
 _LISTS = {"list": "ul", "numbers": "ol"}
 _POLICY = "script-src 'none'; object-src 'none'; base-uri 'none'; form-action 'none'"
@@ -32,11 +32,11 @@ iframe { width: 100%; height: 26em; border: 1px solid #8886 }
 
 @dataclass(frozen=True, slots=True)
 class StepRobots:
-    """The robots of a step, as pages beside that of the lesson; "" where there is none.
+    """The robots of a step, as pages beside the lesson's page; "" for none.
 
     Attributes:
-        start: what a student begins with.
-        reference: what passes.
+        start: start state of the student's robot.
+        reference: robot that passes.
         broken: whether there is a start that cannot be shown.
     """
 
@@ -56,10 +56,10 @@ def lesson_page(
 
     Args:
         lesson: the lesson.
-        track: the way through it.
+        track: track of the lesson.
         robots: name of a step → its robots.
-        files: those to begin with, as addresses beside the page.
-        ships: its name, where it ships with the program.
+        files: start files, as addresses relative to the page.
+        ships: name of the lesson, if it is bundled with the program.
     """
     title = escape(lesson.title)
     steps = "".join(

@@ -1,4 +1,4 @@
-"""What a student has written, read once for all conditions of all steps."""
+"""A student's files, read once for all conditions of all steps."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 
 
 class Work:
-    """A model, and the folder it is in.
+    """A model and its folder.
 
     Args:
-        model: the model file; it need not exist.
+        model: model file, which need not exist.
         folder: the student's folder; default the package of the model, or its folder.
         trusted: as for `load_robot`.
-        loaded: the robot, or why there is none, where that is known already.
-        problems: what `check` says, where that is known already.
+        loaded: the robot, or the reason why there is none, if already known.
+        problems: findings of `check`, if already known.
         edited: as for `load_robot`.
 
     Attributes:
@@ -63,7 +63,7 @@ class Work:
 
     @property
     def refusal(self) -> RobotError | None:
-        """Why there is no robot; None when there is one."""
+        """The reason why there is no robot; None when there is one."""
         loaded = self._loaded
         return loaded if isinstance(loaded, RobotError) else None
 
@@ -81,7 +81,7 @@ class Work:
 
     @cached_property
     def problems(self) -> tuple[Problem, ...]:
-        """What `check` says about the model and its package."""
+        """The findings of `check` in the model and its package."""
         if self._given is not None:
             return tuple(self._given)
         if self.refusal is not None:
@@ -90,7 +90,7 @@ class Work:
 
     @cached_property
     def files(self) -> Package:
-        """The files of the folder; it need not be a package of ROS."""
+        """The files of the folder, which need not be a ROS package."""
         found = Workspace(self.folder, trusted=self._trusted).at(self.folder)
         if found is not None:
             return found
@@ -100,7 +100,7 @@ class Work:
 
     @cached_property
     def around(self) -> Surroundings:
-        """The robot, if there is one, and all that the files of the folder say."""
+        """The robot, if there is one, and the facts from all files of the folder."""
         robot = None if self.refusal is not None else self.robot
         return Surroundings(robot, (self.files,))
 
@@ -114,9 +114,9 @@ class Work:
         """The recordings of the folder, as one.
 
         Raises:
-            SourceError: there is none, or it cannot be opened.
+            SourceError: there is no recording, or one cannot be opened.
         """
-        # The import is late: it needs numpy and what decodes messages.
+        # Imported late: it needs numpy and the decoders of messages.
         from sambot_viz.lessons.recorded import StudentRecording
 
         paths = [self.files.folder / each for each in self._recordings()]
@@ -125,14 +125,14 @@ class Work:
         return StudentRecording(paths)
 
     def _recordings(self) -> list[str]:
-        """Return the recordings; untrusted ones are not read through a link."""
+        """Return the recordings; for an untrusted folder, without links."""
         root = [self.files.folder.resolve()]
         paths = self.files.ending(*RECORDING_ENDINGS)
         folder = self.files.folder
         return [p for p in paths if self._trusted or is_below(folder / p, root)]
 
     def sources(self) -> Iterator[tuple[str, str]]:
-        """Give the files of the model that are in the folder, each with its text."""
+        """Yield the files of the model that are in the folder, each with its text."""
         found = [] if self.refusal is not None else [*self.robot.files]
         for file in dict.fromkeys([self.model.absolute(), *found]):
             if file.is_relative_to(self.files.folder):

@@ -1,4 +1,4 @@
-"""Grades in the formats of those who ask for them."""
+"""Writes grades in the formats of other systems."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def _json(grade: Grade) -> str:
 
 
 def _junit(grade: Grade) -> str:
-    """Write the XML of JUnit, as GitLab, Jenkins and others show it."""
+    """Write JUnit's XML, which GitLab, Jenkins and others show."""
     failed = sum(not step.passed for step in grade.steps)
     name = quoteattr(line(grade.lesson))
     head = f'<testsuite name={name} tests="{len(grade.steps)}" failures="{failed}">'
@@ -33,7 +33,7 @@ def _case(suite: str, step: StepResult) -> str:
 
 
 def _gradescope(grade: Grade) -> str:
-    """Write the results.json of an autograder of Gradescope."""
+    """Write the results.json of a Gradescope autograder."""
     tests = [
         {
             "number": str(step.number),
@@ -83,4 +83,4 @@ WRITERS: Mapping[str, Callable[[Grade], str]] = {
     "gradescope": _gradescope,
     "prairielearn": _prairielearn,
 }
-"""Name of the format → text; the text for people is written by the command."""
+"""Name of the format → its writer; the command itself writes the text for people."""

@@ -1,7 +1,7 @@
-"""The program of the child process that grades what a student has written.
+"""The program of the child process that grades a student's files.
 
-`lessons/grading.py` starts it as a script: an order as JSON on standard input, the
-answer as JSON on standard output.
+`lessons/grading.py` starts it as a script. The order comes as JSON on standard input,
+the answer goes as JSON to standard output.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ def main() -> None:
     """Read the order, grade, write the answer."""
     size = int(sys.stdin.buffer.read(16))
     order = json.loads(sys.stdin.buffer.read(size))
-    # Nothing of the package, and of others, is found before this.
+    # Before this line, no import finds our package or any other.
     sys.path[:] = order["import_path"]
     from sambot_viz.robot.xacro.child.main import (
         end_with_parent,

@@ -1,1 +1,1 @@
-"""Files of YAML, read strictly: each value has a kind, and a fault has a place."""
+"""Strict reading of YAML files: each value has a kind, and each fault a place."""

@@ -1,4 +1,4 @@
-"""Maps of YAML as dataclasses: each field is declared once, with the kind it has."""
+"""YAML maps as dataclasses: one declaration gives each field its kind."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ T = TypeVar("T")
 
 
 def given(kind: ValueKind, default: Any = MISSING, key: str = "") -> Any:
-    """Declare a field that is read from a file.
+    """Declare a field that a file may contain.
 
     Args:
-        kind: of its value.
-        default: its value where it is not given; without one it has to be.
-        key: its name in the file, where that is another one.
+        kind: kind of its value.
+        default: value if the file does not contain it; without one it is required.
+        key: its name in the file, if that differs.
     """
     return field(default=default, metadata={"kind": kind, "key": key})
 
 
 def keys_of(record: type[Any]) -> dict[str, tuple[str, ValueKind, bool]]:
-    """Return key in the file → name of the field, kind, and whether it is needed."""
+    """Return key in the file → field name, kind, and whether it is required."""
     return {
         one.metadata["key"] or one.name: (
             one.name,
@@ -44,14 +44,14 @@ def read_record(
     """Read a map as a dataclass.
 
     Args:
-        record: the class; its fields are those of `given`, and those of `known`.
-        of: what the map is, for messages, such as "a step".
+        record: the class, with fields from `given` and from `known`.
+        of: name of the map in messages, such as "a step".
         node: the map.
-        report: gets what is wrong.
+        report: receives the problems.
         known: values of other fields.
 
     Returns:
-        None after a problem was reported.
+        None after a problem.
     """
     if not isinstance(node, yaml.MappingNode):
         report.wrong_value(node, f"{of} is not a map of keys", "write key: value")

@@ -1,4 +1,4 @@
-"""What is wrong with a lesson's file, collected while it is read to the end."""
+"""Problems in a lesson's file, collected up to its end."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ class LessonReport:
     """Collects the problems of one file.
 
     Args:
-        file: the file as the user wrote it.
+        file: file as the user wrote it.
 
     Attributes:
-        folder: the folder of the file.
+        folder: folder of the file.
         findings: the problems.
     """
 
@@ -28,23 +28,23 @@ class LessonReport:
         self.findings = Findings()
 
     def place(self, node: yaml.Node) -> Place:
-        """Return where a value begins."""
+        """Return the start of a value."""
         return place_of(node, self.file)
 
     def wrong_value(self, node: yaml.Node, message: str, hint: str) -> None:
-        """Add a value of another kind or outside its range."""
+        """Report a value of another kind or outside its range."""
         self.findings.add("error", "lesson-value", message, hint, self.place(node))
 
     def unknown(
         self, node: yaml.ScalarNode, what: str, of: str, known: Iterable[str]
     ) -> None:
-        """Add a name that is not in a list.
+        """Report a name that is not in a list.
 
         Args:
             node: the name.
-            what: what it is, such as "key".
-            of: what has those names, such as "a step".
-            known: the names that there are.
+            what: kind of name, such as "key".
+            of: owner of the names, such as "a step".
+            known: the valid names.
         """
         names = list(known)
         self.findings.add(
@@ -56,7 +56,7 @@ class LessonReport:
         )
 
     def missing(self, node: yaml.Node, key: str, of: str, kind: str) -> None:
-        """Add a key that is needed and not there."""
+        """Report a required key that is missing."""
         self.findings.add(
             "error",
             "lesson-key",

@@ -1,4 +1,4 @@
-"""The kinds of values that a lesson's file has, each read from YAML with its place."""
+"""The kinds of values in a lesson's file; each reads YAML and knows its place."""
 
 from __future__ import annotations
 
@@ -20,9 +20,8 @@ class ValueKind:
     """A kind of value.
 
     Attributes:
-        words: what to write, such as "a number".
-        read: returns the value; None after a problem was reported, or where it is of
-            another kind.
+        words: description for messages, such as "a number".
+        read: returns the value; None after a problem, or for a value of another kind.
     """
 
     words: str
@@ -30,7 +29,7 @@ class ValueKind:
 
 
 def read_value(kind: ValueKind, key: str, node: yaml.Node, report: LessonReport) -> Any:
-    """Return a value, or None after a problem was reported."""
+    """Return a value; None after a problem."""
     before = len(report.findings.problems)
     value = kind.read(node, report)
     if value is None and len(report.findings.problems) == before:
@@ -75,7 +74,7 @@ def _flag(node: yaml.Node, _report: LessonReport) -> bool | None:
 
 
 def _texts(node: yaml.Node, report: LessonReport) -> tuple[str, ...] | None:
-    """One text, or a list of some."""
+    """Return one text, or a list of texts, as a tuple."""
     items: list[yaml.Node] = (
         node.value if isinstance(node, yaml.SequenceNode) else [node]
     )
@@ -88,7 +87,7 @@ def map_of(kind: ValueKind, words: str) -> ValueKind:
 
     Args:
         kind: of each value.
-        words: what to write.
+        words: description for messages.
     """
 
     def read(
@@ -126,7 +125,7 @@ def numbers(count: int) -> ValueKind:
 
 
 def one_of(*words: str) -> ValueKind:
-    """Return the kind of a text that is one of some words."""
+    """Return the kind of a text from a list of words."""
     some = some_of(*words)
 
     def read(node: yaml.Node, report: LessonReport) -> str | None:
@@ -137,7 +136,7 @@ def one_of(*words: str) -> ValueKind:
 
 
 def some_of(*words: str) -> ValueKind:
-    """Return the kind of one text, or a list of texts, that are some of these words."""
+    """Return the kind of one text, or a list of texts, from a list of words."""
 
     def read(node: yaml.Node, report: LessonReport) -> tuple[str, ...] | None:
         texts = _texts(node, report)
@@ -156,7 +155,7 @@ def all_of(kind: ValueKind, words: str) -> ValueKind:
 
     Args:
         kind: of each item.
-        words: what to write.
+        words: description for messages.
     """
 
     def read(node: yaml.Node, report: LessonReport) -> tuple[Any, ...] | None:
