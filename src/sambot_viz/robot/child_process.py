@@ -1,4 +1,4 @@
-"""Work in a child process of Python, which ends with this one and in time."""
+"""Runs work in a child process of Python, with a time limit and this one's lifetime."""
 
 from __future__ import annotations
 
@@ -12,26 +12,26 @@ from pathlib import Path
 
 
 class ChildTimeoutError(Exception):
-    """The child did not answer in time; it was ended."""
+    """The child did not answer in time and was ended."""
 
 
 class Child:
-    """A script that has started, and waits for its order.
+    """A script that has started and waits for its order.
 
-        It runs in a session of its own, and reads the order from standard input, which
-    stays open until the answer is there.
+    It runs in a separate process session, and reads the order from standard input,
+    which stays open until the answer is there.
 
     Args:
-        script: what it runs.
-        arguments: of its command line.
-        environment: variables of its environment, beside those that Windows needs.
+        script: the script.
+        arguments: its command line.
+        environment: its environment variables, beside those that Windows needs.
     """
 
     def __init__(
         self, script: Path, arguments: Sequence[str] = (), **environment: str
     ) -> None:
         needed = {n: os.environ[n] for n in ("SYSTEMROOT",) if n in os.environ}
-        # The child reads EOF from this pipe when this process has died, and exits too.
+        # The child reads EOF from this pipe when this process dies, and then exits too.
         # Therefore the pipe stays open until the answer is there; `communicate` would
         # close it earlier.
         read_end, self._lifeline = os.pipe()
@@ -51,17 +51,17 @@ class Child:
             os.close(read_end)
 
     def ask(self, order: bytes, seconds: float) -> tuple[bytes, int | None]:
-        """Give it its only order, and return what it wrote to standard output.
+        """Send the only order, and return the child's standard output.
 
         Args:
-            order: what it has to do.
-            seconds: it is ended after this time [s], with all that it has started.
+            order: the order.
+            seconds: time limit [s], after which the child and its processes end.
 
         Returns:
-            Its output, and the status with which it has ended.
+            The output, and the exit status.
 
         Raises:
-            ChildTimeoutError: it took longer.
+            ChildTimeoutError: the child took longer.
         """
         try:
             _send(self._lifeline, framed(order))
@@ -80,20 +80,20 @@ def python(script: Path, *arguments: str) -> list[str]:
 
 
 def framed(order: bytes) -> bytes:
-    """Return what is sent: 16 characters of length, then the order."""
+    """Prefix an order with its length, as 16 characters."""
     return b"%16d" % len(order) + order
 
 
 def _send(pipe: int, data: bytes) -> None:
     left = memoryview(data)
-    # A child that ended early gives no answer, which is reported as a crash.
+    # A child that ended early gives no answer; the caller reports a crash.
     with contextlib.suppress(BrokenPipeError):
         while left:
             left = left[os.write(pipe, left) :]
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
-    """End the child and everything it has started, and collect it."""
+    """End the child and all its processes, and collect it."""
     if os.name == "posix":
         try:
             os.killpg(process.pid, signal.SIGKILL)

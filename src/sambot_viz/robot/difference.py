@@ -1,7 +1,7 @@
-"""What differs between two robots: of each link and joint, value by value.
+"""Differences between two robots, value by value for each link and joint.
 
-A joint is compared in its parent link, so that a part that was moved is one difference
-and not one of each frame behind it. Two ways of writing the same rotation are equal.
+Joints are compared in their parent links, so a moved part counts as one difference, not
+as one for each frame below it. Two notations of the same rotation are equal.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ Unit = Literal["", "m", "rad", "kg", "kg m²"]
 
 _THERE = "there"
 _SAME = 1e-6
-"""Numbers that differ by less, or by less than this share, are the same."""
+"""Numbers are equal if they differ by less than this, absolutely or relatively."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,14 +42,14 @@ class Difference:
     """One value that differs.
 
     Attributes:
-        kind: whose it is: "robot", "link" or "joint".
-        name: of that link or joint; of the robot "".
-        what: which value: "mass", "origin", "visual 2 size".
-        mine: what the first robot has.
-        theirs: what the second robot has.
-        unit: of both.
-        apart: how far they are apart, where that is one number [m or rad].
-        places: where it is written in the files of the two robots.
+        kind: kind of its owner: "robot", "link" or "joint".
+        name: name of that link or joint; "" for the robot.
+        what: name of the value: "mass", "origin", "visual 2 size".
+        mine: value of the first robot.
+        theirs: value of the second robot.
+        unit: unit of both.
+        apart: distance between the two, if it is a single number [m or rad].
+        places: places of the value in the files of the two robots.
     """
 
     kind: Literal["robot", "link", "joint"]
@@ -64,7 +64,7 @@ class Difference:
 
 @dataclass(frozen=True, slots=True)
 class _Fact:
-    """A value of a link or joint, to be compared with the same one of another."""
+    """A value of a link or joint, to compare with that of another robot."""
 
     value: Value
     unit: Unit = ""
@@ -72,14 +72,14 @@ class _Fact:
 
 
 _Parts = Mapping[str, Mapping[str, _Fact]]
-"""What a link or joint consists of: part → its values; "" for its own ones."""
+"""Parts of a link or joint → their values; "" for values of the whole."""
 
 
 def differences(mine: Robot, theirs: Robot) -> list[Difference]:
-    """Return what differs between two robots, in the order of the first one's file.
+    """Return the differences between two robots, in the order of the first one's file.
 
-    What only the second one has comes behind. Meshes are compared by their names, not
-    by what is in their files.
+    Parts that only the second robot has come last. Meshes are compared by name, not by
+    content.
     """
     names = (("name", mine.name, theirs.name), ("root link", mine.root, theirs.root))
     found = [Difference("robot", "", *each) for each in names if each[1] != each[2]]
@@ -89,7 +89,7 @@ def differences(mine: Robot, theirs: Robot) -> list[Difference]:
 
 
 def same_shapes(mine: Link, theirs: Link) -> bool:
-    """Tell whether two links are drawn with the same shapes, whatever their colours."""
+    """Return whether two links have the same shapes, whatever their colours."""
     one, other = (
         {str(n): _of_shape(s, with_material=False) for n, s in enumerate(link.visuals)}
         for link in (mine, theirs)
@@ -103,7 +103,7 @@ def _of_parts(
     theirs: Mapping[str, Link] | Mapping[str, Joint],
     parts_of: Callable[[Any], _Parts],
 ) -> Iterator[Difference]:
-    """Compare links or joints by their names."""
+    """Compare links or joints by name."""
     for name in dict.fromkeys((*mine, *theirs)):
         one, other = mine.get(name), theirs.get(name)
         places = (one and one.place, other and other.place)
@@ -127,7 +127,7 @@ def _of_parts(
 def _of_values(
     mine: _Parts, theirs: _Parts
 ) -> Iterator[tuple[str, _Fact | None, _Fact | None]]:
-    """Give the name of each value that differs; a part that is missing is one."""
+    """Yield the name of each value that differs; a missing part counts as one."""
     for part in dict.fromkeys((*mine, *theirs)):
         facts, others = mine.get(part), theirs.get(part)
         if facts is None or others is None:
@@ -140,7 +140,7 @@ def _of_values(
 
 
 def _summary(facts: Mapping[str, _Fact] | None) -> _Fact | None:
-    """Return what stands for a part that the other robot does not have."""
+    """Return a summary of a part that the other robot does not have."""
     return None if facts is None else facts.get("shape", _Fact(_THERE))
 
 
@@ -161,7 +161,7 @@ def _is_near(one: float, other: float) -> bool:
 
 
 def _apart(mine: _Fact, theirs: _Fact) -> float | None:
-    """Return how far two values are apart, where that is one length or angle."""
+    """Return the distance between two values, if it is one length or angle."""
     one, other = mine.value, theirs.value
     if mine.unit not in ("m", "rad"):
         return None

@@ -1,4 +1,4 @@
-"""A difference of two robots in words, for terminals and pages."""
+"""A difference between two robots in words, for terminals and pages."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from sambot_viz.robot.difference import Difference, Unit, Value
 
 
 class DifferenceWords(NamedTuple):
-    """A difference as people read it, in mm and degrees.
+    """A difference for users, in mm and degrees.
 
     Attributes:
         whose: "link base_link", or "" for the robot itself.
-        what: "visual size"; "" for a link or joint that one of them lacks.
-        mine: the value that the first has.
-        theirs: that of the second.
-        apart: how far they are apart; "" where that is no number.
+        what: "visual size"; "" for a link or joint that one robot lacks.
+        mine: value of the first robot.
+        theirs: value of the second robot.
+        apart: distance between the two; "" where it is not a number.
     """
 
     whose: str
@@ -27,7 +27,7 @@ class DifferenceWords(NamedTuple):
 
 
 def in_words(found: Difference) -> DifferenceWords:
-    """Write a difference."""
+    """Describe a difference in words."""
     whose = f"{found.kind} {found.name}".strip()
     mine, theirs = (_shown(value, found.unit) for value in (found.mine, found.theirs))
     apart = "" if found.apart is None else _shown(found.apart, found.unit, 4)

@@ -1,4 +1,4 @@
-"""Problems of a model, collected while it is read to the end."""
+"""Problems of a model, collected up to the end of the file."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from sambot_viz.errors import Findings, Fix, Place, Severity
 from sambot_viz.robot.xml.element import Element
 
 
-# The return type is left to the type checker: `Callable` knows no keywords.
+# The type checker infers the return type: `Callable` cannot express keywords.
 def _reporter(severity: Severity, rejects: bool = False):
     """Return a method of `ModelFindings` that reports a problem at an element."""
 
@@ -41,11 +41,11 @@ class ModelFindings(Findings):
 
     Attributes:
         rejected: whether ROS refuses the whole model.
-        calculates: whether the model has come out of xacro, which calculates.
+        calculates: whether the model comes from xacro, which calculates.
         reject: reports an error for which ROS refuses the whole model.
-        error: reports one that ROS does not, or that affects only part of the robot.
-        warn: reports a doubtful part of the model, which is drawn anyway.
-        remark: reports what is worth knowing.
+        error: reports an error that ROS accepts, or that affects only a part.
+        warn: reports a doubtful part of the model, which is still drawn.
+        remark: reports a useful fact.
     """
 
     def __init__(self, calculates: bool = False) -> None:

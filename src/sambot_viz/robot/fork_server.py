@@ -1,7 +1,7 @@
-"""A child process that has done its imports once, and forks for each order.
+"""A child process that imports once, and forks for each order.
 
-To start Python and to import takes most of the time of a small piece of work; a fork
-takes a few milliseconds. `xacro/child/forks.py` is the other side.
+Starting Python and importing take most of the time of a small task; a fork takes a few
+milliseconds. `xacro/child/forks.py` is the other side.
 """
 
 from __future__ import annotations
@@ -19,26 +19,26 @@ from pathlib import Path
 from sambot_viz.robot.child_process import ChildTimeoutError, framed, python
 
 CAN_FORK = hasattr(os, "fork") and hasattr(socket, "send_fds")
-"""Whether this system has what it needs; Windows does not."""
+"""Whether this system supports it; Windows does not."""
 _PIECE = 2**16
 _LONGEST_END = 5.0
-"""How a fork ended is known after so long at most [s]."""
+"""Longest wait for the exit status of a fork [s]."""
 
 
 class _ServerEnded(Exception):
-    """The process that forks has ended, and the order was not carried out."""
+    """The forking process ended before it carried out the order."""
 
 
 class ForkServer:
-    """A script that has started; each order goes to a fork of it.
+    """A started script that forks for each order.
 
-    Forks run beside each other, each in a session of its own, and end with this
-    process. The script ends by itself when no order comes for some time; the next one
+    Forks run in parallel, each in a separate process session, and end with this
+    process. The script ends by itself after some time without an order; the next order
     starts it again.
 
     Args:
-        script: what it runs.
-        arguments: of its command line.
+        script: the script.
+        arguments: its command line.
     """
 
     def __init__(self, script: Path, arguments: Sequence[str] = ()) -> None:
@@ -48,23 +48,22 @@ class ForkServer:
         self._orders: socket.socket | None = None
 
     def ask(self, order: bytes, seconds: float) -> tuple[bytes, int | None]:
-        """Give an order to a fork, and return what it wrote to standard output.
+        """Send an order to a fork, and return its standard output.
 
         Args:
-            order: what it has to do.
-            seconds: it is ended after this time [s], with all that it has started.
+            order: the order.
+            seconds: time limit [s], after which the fork and its processes end.
 
         Returns:
-            Its output, and the status with which it has ended; None when that is not
-            known.
+            The output, and the exit status; None when that is not known.
 
         Raises:
-            ChildTimeoutError: it took longer.
+            ChildTimeoutError: the fork took longer.
         """
         try:
             return self._ask(order, seconds)
         except _ServerEnded:
-            # It had waited for too long when the order came, or was killed.
+            # The script may have stopped waiting just before, or have been killed.
             with suppress(_ServerEnded):
                 return self._ask(order, seconds)
         return b"", None
@@ -86,7 +85,7 @@ class ForkServer:
             try:
                 found = _exchange(lifeline, output, framed(order), seconds)
             finally:
-                # Its session is killed when this end closes, and then it is collected.
+                # Closing this end kills the fork's session; then it is collected.
                 _close([ours.pop(0)])
                 ended = _exchange(None, status, b"", _LONGEST_END)
         finally:
@@ -99,7 +98,7 @@ class ForkServer:
         return found, int(ended) if ended else None
 
     def _send(self, descriptors: Sequence[int]) -> subprocess.Popen[bytes]:
-        """Send an order's ends of pipes, and return the process that has them."""
+        """Send an order's pipe ends, and return the process that receives them."""
         with self._lock:
             if self._process is not None and self._process.poll() is not None:
                 self._end()
@@ -133,17 +132,17 @@ class ForkServer:
         if self._orders is not None:
             self._orders.close()
         if self._process is not None:
-            # Its forks, if there are any, go on for those who wait for them.
+            # Its forks, if any, continue for their callers.
             self._process.kill()
             self._process.wait()
         self._orders = self._process = None
 
 
 def _exchange(to: int | None, answer: int, data: bytes, seconds: float) -> bytes:
-    """Write to one pipe while another one is read to its end.
+    """Write to one pipe while reading another to its end.
 
     Raises:
-        ChildTimeoutError: that took longer [s].
+        ChildTimeoutError: that took longer than the limit [s].
     """
     end, pieces = time.monotonic() + seconds, list[bytes]()
     left = memoryview(data)
@@ -163,7 +162,7 @@ def _exchange(to: int | None, answer: int, data: bytes, seconds: float) -> bytes
                     left = left[os.write(key.fd, left[:_PIECE]) :]
                     if left:
                         continue
-                # All is sent, or nobody reads it: the answer tells.
+                # All data are sent, or the reader is gone: the answer shows which.
                 waiting.unregister(key.fd)
     raise ChildTimeoutError(f"it took longer than {seconds:g} s")
 

@@ -1,6 +1,6 @@
-"""The parts of a model that are for Gazebo and ros2_control, which ROS does not draw.
+"""The parts of a model for Gazebo and ros2_control, which ROS does not draw.
 
-Rules compare the names in them with the links and joints of the robot.
+Rules compare the names in them with the robot's links and joints.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ _OUTER = frozenset({"robot", "model", "world"})
 def gazebo_parts(document: Element, depth: int = 0) -> tuple[Element, ...]:
     """Copy the <gazebo> and <ros2_control> elements of a model.
 
-    Plugins and sensors of an SDF model come in the form that a URDF gives them: a
-    <gazebo> around each, whose `reference` names the link of a sensor.
+    Plugins and sensors of an SDF model get the form that they have in URDF: a <gazebo>
+    around each, whose `reference` names the link of a sensor.
 
     Args:
-        document: the root element, expanded by xacro.
-        depth: how deep in another document that element is.
+        document: root element, expanded by xacro.
+        depth: depth of that element in another document.
 
     Returns:
-        Elements without parents, so that the rest of the document is not kept.
+        Elements without parents, so that the rest of the document can be released.
     """
     found: list[Element] = []
     for child in document.children:
@@ -38,7 +38,7 @@ def gazebo_parts(document: Element, depth: int = 0) -> tuple[Element, ...]:
 
 
 def _wrapped(element: Element, link: Element | None = None) -> Element:
-    """Put a part of an SDF model into the <gazebo> that a URDF has around it."""
+    """Wrap a part of an SDF model in the <gazebo> that URDF puts around it."""
     attributes = {} if link is None else {"reference": link.get("name") or ""}
     return Element("gazebo", attributes, element.place, [_copy(element)])
 

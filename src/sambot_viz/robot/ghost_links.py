@@ -1,8 +1,9 @@
-"""The links of a reference that are drawn as a ghost beside a robot, and their places.
+"""The links of a reference to draw as a ghost beside a robot, and their places.
 
-A link that looks alike and is at the same place is left out: it would only cover the
-robot. A link hangs below one of the robot wherever both have it at the same place,
-whatever the joints do, so that it moves with that; else by its own joint.
+The ghost omits a link with the same look and place as the robot's: it would only cover
+the robot. A link hangs below one of the robot's links if both robots have that link at
+the same place for all joint positions, so that it moves with the robot. Otherwise it
+hangs by its own joint.
 """
 
 from __future__ import annotations
@@ -20,22 +21,22 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint, Link
 
 _MOVED = (None, 0.3, -0.7)
-"""Places are compared at the start, and with all joints moved so far [rad or m]."""
+"""Places are compared at the start, and with all joints moved this far [rad or m]."""
 _SAME = 1e-6
-"""Poses whose numbers differ by less are the same."""
+"""Poses whose numbers differ by less are equal."""
 
 
 @dataclass(frozen=True, slots=True)
 class GhostLink:
-    """A link of a reference, and where it hangs.
+    """A link of a reference, and its parent.
 
     Attributes:
-        link: of the reference.
-        above: the link that it hangs below.
-        of_ghost: whether that is one of the ghost, and not of the robot.
-        joint: holds it there; None where the matrix does.
+        link: the reference's link.
+        above: link that it hangs below.
+        of_ghost: whether `above` belongs to the ghost, not to the robot.
+        joint: joint that holds it; None where the matrix does.
         T_above_link: (4, 4), without a joint.
-        drawn: whether its shapes are drawn; else it only holds others.
+        drawn: whether its shapes are drawn; otherwise it only holds others.
     """
 
     link: Link
@@ -47,10 +48,10 @@ class GhostLink:
 
 
 def ghost_links(mine: Robot, theirs: Robot) -> list[GhostLink]:
-    """Return the links of a reference that are drawn, each after the one it hangs by.
+    """Return the drawn links of a reference, each after the link that holds it.
 
-    The two are put together at the robot's root link, at the reference's where only
-    that is a link of both, else root at root.
+    The two robots meet at the robot's root link; at the reference's root if only that
+    is a link of both; otherwise root at root.
 
     Args:
         mine: the robot.
@@ -61,7 +62,7 @@ def ghost_links(mine: Robot, theirs: Robot) -> list[GhostLink]:
     joints = {joint.child: joint for joint in theirs.joints.values()}
     needed: set[str] = set()
     found: list[GhostLink] = []
-    # Those that hold others come first in the kinematics.
+    # Parents come first in the kinematics.
     for name in reversed(theirs.kinematics.links):
         link, own = theirs.links[name], mine.links.get(name)
         is_there = name in same
@@ -83,7 +84,7 @@ def ghost_links(mine: Robot, theirs: Robot) -> list[GhostLink]:
 
 
 def _ends(mine: Robot, theirs: Robot) -> tuple[str, str]:
-    """Return the link of each that is at the place of the other."""
+    """Return the link of each robot that lies at the other's place."""
     for root in (mine.root, theirs.root):
         if root in mine.links and root in theirs.links:
             return root, root
@@ -91,7 +92,7 @@ def _ends(mine: Robot, theirs: Robot) -> tuple[str, str]:
 
 
 def _same_places(mine: Robot, theirs: Robot, ends: tuple[str, str]) -> set[str]:
-    """Return the links that both have at the same place, whatever the joints do."""
+    """Return the links that share a place in both robots, for all joint positions."""
     same = mine.links.keys() & theirs.links.keys()
     for far in _MOVED:
         given = dict[str, float]() if far is None else _moved(mine, far)

@@ -1,4 +1,4 @@
-"""Chains and rings of links, whatever the model is written in."""
+"""Chains and rings of links, for all model languages."""
 
 from __future__ import annotations
 
@@ -57,15 +57,15 @@ def rings_of(links: Iterable[str], holder: Mapping[str, Joint]) -> list[list[Joi
 def copied_joint(
     holders: Mapping[str, Sequence[Joint]], alone: Sequence[str]
 ) -> tuple[Joint, str] | None:
-    """Return a joint whose child was copied from another joint, and the child meant.
+    """Return a joint whose child is a copy from another joint, and the intended child.
 
     Args:
         holders: link → the joints whose child it is.
-        alone: the links that no joint has as its child, without the root.
+        alone: links that are not the child of any joint, without the root.
 
     Returns:
-        None unless there is one link of each kind, and the name of one joint is more
-        like the one left alone.
+        None unless there is one link of each kind, and one joint's name resembles the
+        lone link more.
     """
     twice = [joints for joints in holders.values() if len(joints) > 1]
     if len(twice) != 1 or len(alone) != 1 or len(twice[0]) != 2:
@@ -83,15 +83,15 @@ def copied_joint(
 def exchanged_joint(
     joints: Iterable[Joint], links: Iterable[str], main: str
 ) -> Joint | None:
-    """Return the joint whose parent and child are to be exchanged for one tree.
+    """Return the joint whose parent and child must swap to make one tree.
 
     Args:
-        joints: those of a model in which a link is the child of two joints.
+        joints: joints of a model in which a link is the child of two joints.
         links: names of all links.
-        main: the root that is to stay.
+        main: the root to keep.
 
     Returns:
-        None unless it is exactly one.
+        None unless there is exactly one.
     """
     all_joints, names = list(joints), set(links)
     found: list[Joint] = []
@@ -127,10 +127,10 @@ def report_depth(
 
     Args:
         root: the root link.
-        joints: the joints of one tree.
+        joints: joints of one tree.
         elements: link → its element.
-        document: stands for a link without an element.
-        findings: where the warning goes.
+        document: takes the place of a missing link element.
+        findings: receives the warning.
     """
     children = children_of(joints)
     level, depth = [root], 0

@@ -1,4 +1,4 @@
-"""The joints of a robot in order, and where they put its links at the start."""
+"""The joints of a robot in order, and the start poses of its links."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from sambot_viz.geometry import PlainPose
 from sambot_viz.robot.parts import Joint, Mimic, mimic_chain
 
 SPINNING = ("revolute", "continuous")
-"""The types of joints that turn about their axis."""
+"""Types of joints that turn about their axis."""
 _FARTHEST = 1e30
-"""A chain of mimic joints with large factors stops growing here."""
+"""Limit for positions in a chain of mimic joints with large factors."""
 
 
 class JointTree(Protocol):
@@ -75,7 +75,7 @@ def followers(order: Sequence[Joint]) -> list[MimicRow]:
 
 
 def start_of(joint: Joint) -> float:
-    """Return where a joint is at the start [rad or m]."""
+    """Return the start position of a joint [rad or m]."""
     return joint.start if joint.movable else 0.0
 
 
@@ -85,7 +85,7 @@ def mimicked(leader: float, multiplier: float, offset: float) -> float:
 
 
 def start_poses(robot: JointTree) -> dict[str, PlainPose]:
-    """Return T_root_link of all links where all joints have their start values."""
+    """Return T_root_link of all links with all joints at their start values."""
     order, _ = by_depth(robot)
     values = [start_of(joint) for joint in order]
     for one in followers(order):
@@ -109,7 +109,7 @@ def _moved(joint: Joint, value: float) -> PlainPose:
 
 
 def free_positions(robot: JointTree, given: Mapping[str, float]) -> dict[str, float]:
-    """Return the positions that are those of joints which follow no other."""
+    """Return the positions of joints that follow no other joint."""
     joints = robot.joints
     return {
         name: position

@@ -60,25 +60,25 @@ class Kinematics:
         """Return the position of every joint [rad or m].
 
         Args:
-            given: joint name → position. A joint that is not given has its start
-                value, a mimic joint follows its leader.
+            given: joint name → position. Other joints have their start values; mimic
+                joints follow their leaders.
 
         Raises:
-            JointError: an unknown joint, or a value that is not finite.
+            JointError: the joint is unknown, or a value is not finite.
         """
         values: list[float] = self._filled(given).tolist()
         return dict(zip(self.joints, values, strict=True))
 
     def forward(self, given: Mapping[str, float]) -> dict[str, Matrix]:
-        """Poses of all links in the root link: link name → (4, 4), T_root_link.
+        """Return the poses of all links in the root link: name → (4, 4), T_root_link.
 
         Raises:
-            JointError: an unknown joint, or a value that is not finite.
+            JointError: the joint is unknown, or a value is not finite.
         """
         return dict(zip(self.links, self.poses(given), strict=True))
 
     def poses(self, given: Mapping[str, float]) -> Matrix:
-        """Like `forward`, as one (N, 4, 4) array in the order of `links`."""
+        """Return the result of `forward` as one (N, 4, 4) array in `links` order."""
         poses: Matrix = np.empty((len(self.links), 4, 4))
         poses[0] = np.eye(4)
         poses[1:] = self._transforms(self._filled(given))
@@ -87,15 +87,15 @@ class Kinematics:
         return poses
 
     def joint_transform(self, joint: str, position: float) -> Matrix:
-        """T_parent_child (4, 4) of one joint, without the rest of the robot.
+        """Return T_parent_child (4, 4) of one joint, without the rest of the robot.
 
         Args:
-            joint: its name.
-            position: its position [rad or m]; of no effect on joints that ROS does
+            joint: name of the joint.
+            position: its position [rad or m]; without effect on joints that ROS does
                 not move (fixed, floating, planar).
 
         Raises:
-            JointError: an unknown joint, or a position that is not finite.
+            JointError: the joint is unknown, or the position is not finite.
         """
         row = self._row_of(joint)
         q = _finite(joint, position)
@@ -111,14 +111,14 @@ class Kinematics:
     def joint_transforms(
         self, names: Iterable[str], positions: Mapping[str, float]
     ) -> dict[str, Matrix]:
-        """T_parent_child (4, 4) of some joints.
+        """Return T_parent_child (4, 4) of some joints.
 
         Args:
             names: the joints.
-            positions: the positions of all joints [rad or m].
+            positions: positions of all joints [rad or m].
 
         Raises:
-            JointError: an unknown joint, or a position that is not finite.
+            JointError: a joint is unknown, or a position is not finite.
         """
         wanted = list(names)
         if len(wanted) <= FEW:
@@ -164,15 +164,15 @@ class Kinematics:
 
 
 _CALL = 25
-"""What a step costs more than its rows, in rows (3 µs and 0.12 µs)."""
+"""Fixed cost of a step, in rows (3 µs and 0.12 µs)."""
 
 
 def _steps(parents: _Ints) -> list[_Step]:
-    """The cheaper way from joint transforms to poses.
+    """Return the cheaper way from joint transforms to poses.
 
-    Level by level each row is touched once, in as many steps as the tree is deep. A
-    long chain is done in the logarithm of that: each step doubles how far up the rows
-    reach.
+    Level by level, each row takes part once, in as many steps as the tree is deep. A
+    long chain needs only the logarithm of that: each step doubles the distance that the
+    rows reach up the tree.
     """
     depths: list[int] = []
     listed: list[int] = parents.tolist()
@@ -194,7 +194,7 @@ def _steps(parents: _Ints) -> list[_Step]:
 
 
 def _terms(order: Sequence[Joint]) -> _Floats:
-    """What (1, cos q, sin q, q) are multiplied by: (N, 4, 16), the sum T_parent_child.
+    """Return the factors of (1, cos q, sin q, q): (N, 4, 16), the sum T_parent_child.
 
     A rotation about an axis is ``outer + cos q (1 - outer) + sin q cross``.
     """
@@ -217,7 +217,7 @@ def _terms(order: Sequence[Joint]) -> _Floats:
 
 
 def _numbers(given: Mapping[str, float]) -> _Floats | list[float]:
-    """Return finite numbers; one of another kind is looked at by itself."""
+    """Return finite numbers; check values of other types one by one."""
     if set(map(type, given.values())) == {float}:
         values = np.fromiter(given.values(), np.float64, len(given))
         if np.isfinite(values).all():

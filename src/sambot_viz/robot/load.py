@@ -1,4 +1,4 @@
-"""From a model to what a `Robot` is made of: the only way in."""
+"""Loads a model into the parts of a `Robot`: the only way in."""
 
 from __future__ import annotations
 
@@ -90,13 +90,13 @@ def expand(
     """Return the URDF or SDF text of a model, as the xacro command prints it.
 
     Args:
-        model: the file, the XML text itself, or the result of `open_model`.
+        model: file, XML text, or result of `open_model`.
         xacro_args: values for ``xacro:arg``.
         package_path: as for `load_robot`.
         trusted: as for `load_robot`.
 
     Raises:
-        RobotError: it is not XML, or it cannot be expanded.
+        RobotError: the model is not XML, or xacro cannot expand it.
     """
     opened = model if isinstance(model, OpenedModel) else open_model(model)
     loader = _Loader(opened, xacro_args or {}, package_path, trusted)
@@ -118,11 +118,11 @@ class _Loader:
         own = first_own(document)
         undeclared = undeclared_prefix(document, own, path)
         if undeclared is not None:
-            # urdfdom does not look at prefixes: for ROS this is plain URDF.
+            # urdfdom ignores prefixes: for ROS this is plain URDF.
             return self._without_xacro(document, problems, undeclared)
         xacro = own
         if not self.opened.source.is_published:
-            # In what came over a topic "${…}" is text, as for other subscribers.
+            # In text from a topic "${…}" is plain text, as for other subscribers.
             xacro = own or first_substitution(document)
         if xacro is None:
             problems += missing_prefixes(document)
@@ -144,7 +144,7 @@ class _Loader:
     def _without_xacro(
         self, document: Element, problems: list[Problem], undeclared: Problem
     ) -> LoadedModel:
-        """Read a file that needs xacro as ROS does; what is left of xacro follows."""
+        """Read a file that needs xacro as ROS does; problems with xacro follow."""
         if first_substitution(document) is None:
             return self._robot(document, None, [*problems, undeclared])
         try:
@@ -167,7 +167,7 @@ class _Loader:
                 trusted=self.trusted,
                 edited=self.edited,
             )
-        # Only a model that xacro refuses needs the rules that explain why.
+        # Only a model that xacro refuses needs the rules that explain the cause.
         except ExpansionXmlError as error:
             from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
 
@@ -224,7 +224,7 @@ class _Loader:
         findings: ModelFindings,
         expanded: ExpandedModel | None,
     ) -> RobotTree | None:
-        """Read a document in the language that its root element says."""
+        """Read a document in the language of its root element."""
         if root.tag == "sdf":
             return self._sdf(root, files, findings)
         tree = read_urdf(
@@ -234,7 +234,7 @@ class _Loader:
         if expanded is not None:
             macros = expanded.macros.union(OWN_TAGS)
         if slips := find_slips(root, URDF, macros):
-            # The import is late, as below: most models have none.
+            # Imported late, as below: most models have no slips.
             from sambot_viz.robot.slips.follow_ups import report_slips
 
             report_slips(
@@ -268,11 +268,11 @@ class _Loader:
 
 
 def _no_file(_name: str, _element: Element) -> None:
-    """Leave a mesh or a texture out, where only the elements are read."""
+    """Omit a mesh or a texture when only the elements are of interest."""
 
 
 def _wanted(failure: XacroFailure) -> list[Path]:
-    """The files that an expansion read or looked for, and a missing package's places.
+    """Return the files that an expansion wanted, and places for a missing package.
 
     A place that is not a folder is the name of a path variable's entry.
     """

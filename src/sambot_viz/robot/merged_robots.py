@@ -1,4 +1,4 @@
-"""Several robots as one: each further one hangs at a link, its names with a prefix."""
+"""Merges several robots: each further one hangs at a link, with a name prefix."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ class HungRobot:
     """A further robot.
 
     Attributes:
-        name: comes before the names of its links and joints, with a slash, as with the
+        name: prefix of its link and joint names, followed by a slash, like the
             frame_prefix of robot_state_publisher.
-        robot: what hangs there.
-        parent: the link that it hangs at.
-        origin: the pose of its root link in that.
+        robot: the robot.
+        parent: link that it hangs at.
+        origin: pose of its root link in the parent link.
     """
 
     name: str
@@ -35,12 +35,12 @@ class HungRobot:
 def merged(first: Robot, hung: Sequence[HungRobot]) -> Robot:
     """Return a robot with all links and joints; without others, the first itself.
 
-    Its text and its files are those of the first. A further robot whose parent link is
-    not there hangs at the root.
+    Its text and files are those of the first robot. A further robot hangs at the root
+    if its parent link is missing.
 
     Args:
-        first: its names stay as they are.
-        hung: the others; each may hang at one before it.
+        first: robot that keeps its names.
+        hung: the others; each may hang at an earlier one.
     """
     if not hung:
         return first

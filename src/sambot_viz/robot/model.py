@@ -1,6 +1,6 @@
-"""A robot, and the ways to one: a file, a text, or yourdfpy.
+"""A robot, and the ways to load one: from a file, a text, or yourdfpy.
 
-Loading is imported when it is first used: the page has to be there before it.
+The loader is imported at its first use, so that the page appears before it.
 """
 
 from __future__ import annotations
@@ -46,15 +46,14 @@ class Robot:
         root: name of the root link.
         links: link name → Link, in document order.
         joints: joint name → Joint, in document order.
-        problems: warnings and notes; errors only for things left out of the picture.
+        problems: warnings and notes; errors only for parts missing from the picture.
         description: the expanded and validated text, as in /robot_description.
-        files: every file that was read for it, the model first (for reload on save).
-        file_roots: folders that its meshes and textures may be read from (resolved);
+        files: all files of the model, the model file first (for reload on save).
+        file_roots: folders from which its meshes and textures may come (resolved);
             None for a trusted model, whose files may be anywhere.
-        language: what the description is written in.
+        language: language of the description.
         gazebo: its parts for Gazebo and ros2_control; see `gazebo_parts`.
-        edited: loads it as it would be with other texts of its files; see
-            `load_robot`.
+        edited: loads the robot again with other texts of its files; see `load_robot`.
     """
 
     name: str
@@ -73,7 +72,7 @@ class Robot:
 
     @cached_property
     def urdf(self) -> str:
-        """The robot as URDF: its description, or what ROS makes of an SDF file."""
+        """The robot as URDF: its description, or ROS's translation of an SDF file."""
         if self.language == "urdf":
             return self.description
         from sambot_viz.robot.urdf.write_urdf import write_urdf
@@ -82,16 +81,16 @@ class Robot:
 
     @cached_property
     def kinematics(self) -> Kinematics:
-        """The way from positions to poses, prepared once."""
+        """The kinematics from positions to poses, prepared once."""
         from sambot_viz.robot.kinematics import Kinematics
 
         return Kinematics(self)
 
     @cached_property
     def at_start(self) -> Mapping[str, PlainPose]:
-        """Link name → T_root_link where all joints have their start values.
+        """Link name → T_root_link with all joints at their start values.
 
-        It is `forward_kinematics` without positions, for what needs no numpy.
+        Equals `forward_kinematics` without positions, but needs no numpy.
         """
         return start_poses(self)
 
@@ -99,20 +98,20 @@ class Robot:
     def joint_names(self) -> tuple[str, ...]:
         """The joints that take a position, in document order: the order of vectors.
 
-        Fixed, floating, planar and mimic joints are left out.
+        The order omits fixed, floating, planar and mimic joints.
         """
         joints = self.joints.values()
         return tuple(j.name for j in joints if j.movable and j.mimic is None)
 
     def named_positions(self, positions: Positions) -> Mapping[str, float]:
-        """Return positions by the names of their joints.
+        """Return positions by joint name.
 
         Args:
             positions: joint name → position [rad or m], or a vector in the order of
                 `joint_names`.
 
         Raises:
-            JointError: the vector has another length.
+            JointError: the vector has the wrong length.
         """
         if isinstance(positions, Mapping):
             return positions
@@ -134,23 +133,23 @@ class Robot:
 
         Args:
             positions: joint name → position [rad or m], or a vector in the order of
-                `joint_names`. A joint that is not given has its start value; mimic
-                joints follow unless given.
+                `joint_names`. Other joints have their start values; mimic joints follow
+                unless given.
 
         Returns:
-            Link name → (4, 4) float64, T_root_link. A link behind a floating joint
-            is at the joint's origin (ROS publishes no transform for it).
+            Link name → (4, 4) float64, T_root_link. A link below a floating joint is at
+            the joint's origin (ROS publishes no transform for it).
 
         Raises:
-            JointError: an unknown joint name, a value that is not finite, or a vector
-                of another length.
+            JointError: a joint name is unknown, a value is not finite, or a vector has
+                the wrong length.
         """
         none: Mapping[str, float] = {}
         named = none if positions is None else self.named_positions(positions)
         return self.kinematics.forward(named)
 
     def balance(self, positions: Positions | None = None) -> Balance | None:
-        """Weigh the robot, and find what it stands on; its mesh files are read.
+        """Weigh the robot, and find its support; this reads its mesh files.
 
         The ground is level in the root link, at the lowest point of the robot.
 
@@ -158,8 +157,9 @@ class Robot:
             positions: as for `forward_kinematics`.
 
         Returns:
-            Mass, centre of mass in the root link, and support polygon; `tipping` of it
-            says how far the ground may be tilted. None where no link has a mass.
+            Mass, centre of mass in the root link, and support polygon; `tipping` gives
+            the tilt of the ground that the robot withstands. None where no link has a
+            mass.
 
         Raises:
             JointError: as for `forward_kinematics`.
@@ -186,7 +186,7 @@ class Robot:
         """Return the same robot as a `yourdfpy.URDF`, meshes not loaded."""
         import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
-        # This text is validated: yourdfpy silently repairs broken ones.
+        # This text is validated: yourdfpy silently repairs broken texts.
         return yourdfpy.URDF.load(  # pyright: ignore[reportUnknownMemberType]
             io.BytesIO(self.urdf.encode()), build_scene_graph=True, load_meshes=False
         )
@@ -212,25 +212,23 @@ def load_robot(
 ) -> Robot:
     """Load a robot from a URDF, SDF or xacro file, or from text.
 
-    The content decides what it is and whether xacro expands it, not the ending of the
-    file name.
+    The content, not the ending of the file name, decides about the language and xacro.
 
     Args:
-        model: the file, the XML text itself, or the result of `open_model`.
+        model: file, XML text, or result of `open_model`.
         xacro_args: values for ``xacro:arg``.
-        package_path: where packages are: package folders, folders that hold
-            packages, or ``name=folder``.
+        package_path: package folders, folders that hold packages, or ``name=folder``.
         trusted: False for a model of unknown origin: xacro then evaluates without
             attribute access, nested code and files outside the model's folder.
-        edited: whole path of a file → its text, in place of what is on the disk.
+        edited: absolute path of a file → text that replaces its content on disk.
 
     Returns:
         The robot as ROS would show it, lengths in metres, angles in radians;
-        `Robot.problems` has the warnings, and an error for each part left out.
+        `Robot.problems` lists the warnings, and an error for each omitted part.
 
     Raises:
         RobotError: the file cannot be read, or ROS would refuse the model;
-            `.problems` lists everything found, each with file, line and fix.
+            `.problems` lists all problems, each with file, line and fix.
     """
     from sambot_viz.robot.load import load_model
 
@@ -247,7 +245,7 @@ def load_robot(
 
 
 def asset_of(shape: Shape, file_roots: tuple[Path, ...] | None = None) -> Asset | None:
-    """Return the file of a shape, None when it needs none or it is not here.
+    """Return the file of a shape; None when it needs none or the file is missing.
 
     Args:
         shape: a visual or a collision.
@@ -270,7 +268,7 @@ def shapes_of(robot: Robot) -> Iterator[Shape]:
 
 
 def assets_of(robot: Robot) -> Iterator[Asset]:
-    """Yield the files of all shapes; one that is used twice comes twice."""
+    """Yield the files of all shapes; a file used twice comes twice."""
     for shape in shapes_of(robot):
         asset = asset_of(shape, robot.file_roots)
         if asset is not None:
@@ -278,7 +276,7 @@ def assets_of(robot: Robot) -> Iterator[Asset]:
 
 
 def something_missing(robot: Robot) -> bool:
-    """Return whether a mesh or a texture was not found on this machine."""
+    """Return whether a mesh or a texture is missing on this machine."""
     for shape in shapes_of(robot):
         geometry, material = shape.geometry, shape.material
         if isinstance(geometry, MeshFile) and geometry.path is None:

@@ -1,4 +1,4 @@
-"""The text of a model as XML."""
+"""Reads the text of a model as XML."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from sambot_viz.robot.xml.element import Element, parse_xml
 PathLike = str | os.PathLike[str]
 
 TEXT_LABEL = "<text>"
-"""The file name in problems of a model that was given as text."""
+"""File name in problems of a model without a file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,11 +26,11 @@ class ModelSource:
     """A model as text.
 
     Attributes:
-        label: the file as the user wrote it, or `TEXT_LABEL`.
-        text: the content.
+        label: file as the user wrote it, or `TEXT_LABEL`.
+        text: content.
         path: the file, or None for text.
-        problems: what is unusual about the file itself.
-        is_published: it came over a topic, where robot_state_publisher's is expanded.
+        problems: peculiarities of the file itself.
+        is_published: whether it came over a topic, where the text is expanded.
     """
 
     label: str
@@ -49,8 +49,8 @@ class OpenedModel(NamedTuple):
     """A model that is well-formed XML; xacro and URDF's rules come later.
 
     Attributes:
-        source: the text and the file it is from.
-        document: its root element.
+        source: text and file.
+        document: root element.
     """
 
     source: ModelSource
@@ -61,16 +61,16 @@ def open_model(model: PathLike, edited: Mapping[str, str] | None = None) -> Open
     """Read the text of a model as XML, for `load_robot`.
 
     Args:
-        model: the file, or the XML text itself.
+        model: file, or XML text.
         edited: as for `load_robot`.
 
     Raises:
-        RobotError: it cannot be read, or it is not well-formed.
+        RobotError: the model cannot be read, or is not well-formed.
     """
     label = os.fspath(model)
     text = edited.get(os.path.abspath(label)) if edited else None
     if text is not None:
-        # What is on the disk may have a mistake, or be gone.
+        # The file on disk may have a mistake, or may be missing.
         return _parsed(_with_good_prolog(label, text, Path(label)))
     try:
         return _parsed(read_source(model))
@@ -79,14 +79,14 @@ def open_model(model: PathLike, edited: Mapping[str, str] | None = None) -> Open
 
 
 def edited_model(opened: OpenedModel, texts: Mapping[str, str]) -> OpenedModel:
-    """Return a model as it is with another text, if there is one of its file.
+    """Return a model with another text for its file, if `texts` has one.
 
     Args:
         opened: the model.
-        texts: whole path of a file → its text.
+        texts: absolute path of a file → its text.
 
     Raises:
-        RobotError: that text is not well-formed.
+        RobotError: the text is not well-formed.
     """
     path = opened.source.path
     text = None if path is None else texts.get(os.path.abspath(path))
@@ -96,14 +96,14 @@ def edited_model(opened: OpenedModel, texts: Mapping[str, str]) -> OpenedModel:
 
 
 def open_text(text: str, label: str) -> OpenedModel:
-    """Read the text of a topic as XML; it is never the name of a file.
+    """Read the text of a topic as XML; it is never a file name.
 
     Args:
         text: the model.
-        label: what problems call it.
+        label: name of the model in problems.
 
     Raises:
-        RobotError: it is not well-formed.
+        RobotError: the text is not well-formed.
     """
     source = _with_good_prolog(TEXT_LABEL, text, None)
     return _parsed(replace(source, label=label, is_published=True))
@@ -117,8 +117,8 @@ def _parsed(source: ModelSource) -> OpenedModel:
 
 
 def _explained(fault: XmlFault, label: str) -> RobotError:
-    """Return what is wrong with a text that is not XML."""
-    # Only a model that is not XML needs the rules that explain why.
+    """Explain why a text is not XML."""
+    # Only a model that is not XML needs the rules that explain the cause.
     from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
 
     return RobotError(explain_xml(fault.text, label, fault))
@@ -128,8 +128,8 @@ def read_source(model: PathLike) -> ModelSource:
     """Read a model from a path, or take it as text when it looks like XML.
 
     Raises:
-        RobotError: there is no such file, or it cannot be read.
-        XmlFault: the bytes are not in the encoding they claim.
+        RobotError: the file does not exist, or cannot be read.
+        XmlFault: the bytes do not match the declared encoding.
     """
     if isinstance(model, str) and looks_like_text(model):
         return _with_good_prolog(TEXT_LABEL, model, None)
@@ -139,7 +139,7 @@ def read_source(model: PathLike) -> ModelSource:
 
 
 def looks_like_text(model: str) -> bool:
-    """Return whether a model is the XML text itself, and no file name."""
+    """Return whether a model is XML text, not a file name."""
     return model.lstrip("\ufeff \t\r\n").startswith("<") or "\n" in model
 
 

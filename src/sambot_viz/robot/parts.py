@@ -1,9 +1,8 @@
-"""What a robot consists of: links with their shapes, and joints, in urdfdom's reading.
+"""The parts of a robot: links with their shapes, and joints, in urdfdom's reading.
 
-Lengths in metres, angles in radians, masses in kilograms. `T_parent_child` maps
+Lengths are in metres, angles in radians, masses in kilograms. `T_parent_child` maps
 child coordinates to parent coordinates: ``p_parent = T_parent_child @ p_child``.
-Places (file, line) are carried along but do not take part in comparison: the same
-robot written in two files is equal.
+Comparison ignores places (file, line): the same robot written in two files is equal.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ from sambot_viz.geometry import (
 )
 
 Language = Literal["urdf", "sdf"]
-"""What a model is written in."""
+"""Language of a model."""
 
 
 @dataclass(frozen=True)
@@ -87,12 +86,12 @@ class Capsule:
 
 @dataclass(frozen=True, slots=True)
 class MeshFile:
-    """A mesh file: the name as written, and the file it was found to be.
+    """A mesh file: the name as written, and the file that it refers to.
 
     Attributes:
-        filename: as the model says ("package://…", relative, …).
+        filename: name in the model ("package://…", relative, …).
         scale: factors along x, y, z; may be negative (mirrored).
-        path: the file on this machine, or None when it was not found.
+        path: the file on this machine, or None if it is missing.
     """
 
     filename: str
@@ -104,7 +103,7 @@ Geometry = Box | Cylinder | Sphere | Capsule | MeshFile
 
 
 def written_sizes(geometry: Geometry) -> tuple[float, ...]:
-    """Return the numbers that a shape is written with [m]; the scale of a mesh."""
+    """Return the numbers that define a shape [m]; for a mesh, its scale."""
     match geometry:
         case Box():
             return geometry.size
@@ -118,13 +117,13 @@ def written_sizes(geometry: Geometry) -> tuple[float, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Material:
-    """A resolved material: what urdfdom would hand to RViz.
+    """A resolved material, as urdfdom passes it to RViz.
 
     Attributes:
         name: as written; may be empty.
-        rgba: colour, each 0 to 1; None when only a texture is given.
+        rgba: colour, each 0 to 1; None for a material with only a texture.
         texture: texture file name as written, or None.
-        texture_path: the file on this machine, or None when it was not found.
+        texture_path: the file on this machine, or None if it is missing.
     """
 
     name: str
@@ -138,13 +137,13 @@ class Shape:
     """One <visual> or <collision>.
 
     Attributes:
-        geometry: what is drawn.
+        geometry: the geometry.
         origin: pose of the shape in its link (T_link_shape).
-        material: None means RViz's default red. For a collision it is the visual
-            material, which RViz uses for it.
+        material: None means RViz's default red. A collision has the visual's material,
+            which RViz uses for it.
         name: the optional name attribute.
-        place: where the element is.
-        geometry_place: where its <box>, <mesh>, … is.
+        place: place of the element.
+        geometry_place: place of its <box>, <mesh>, …
     """
 
     geometry: Geometry
@@ -160,7 +159,7 @@ class Inertial:
     """Mass [kg], pose of the centre of mass (T_link_inertia), inertia [kg m²].
 
     Attributes:
-        call: the call of the macro that has made it, or None.
+        call: call of the macro that created it, or None.
     """
 
     mass: float
@@ -180,8 +179,8 @@ class Link:
     """A link: its shapes in document order, and its inertia if it has one.
 
     Attributes:
-        place: where it is written.
-        call: where the outermost macro is called that makes it.
+        place: place of the element.
+        call: call of the outermost macro that creates it.
     """
 
     name: str
@@ -198,7 +197,7 @@ JointType = Literal[
 MOVABLE_TYPES: frozenset[str] = frozenset({"revolute", "continuous", "prismatic"})
 """The joint types that joint_state_publisher drives."""
 _NO_LIMIT = 1e16
-"""What Gazebo writes for "no limit"."""
+"""Gazebo's notation for "no limit"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,7 +227,7 @@ class SoftLimit:
 
 @dataclass(frozen=True, slots=True)
 class Dynamics:
-    """What brakes a joint: damping [N m s/rad or N s/m], friction [N m or N]."""
+    """Resistance of a joint: damping [N m s/rad or N s/m], friction [N m or N]."""
 
     damping: float = 0.0
     friction: float = 0.0
@@ -258,8 +257,8 @@ class Joint:
         limit: None when the file has no <limit>.
         soft_limit: soft limits, or None.
         mimic: the joint it follows, or None.
-        place: where the element is.
-        dynamics: what brakes it, or None.
+        place: place of the element.
+        dynamics: resistance of the joint, or None.
     """
 
     name: str
@@ -288,11 +287,11 @@ class Joint:
 
     @property
     def range(self) -> tuple[float, float]:
-        """Lower and upper position [rad or m], as joint_state_publisher takes them.
+        """Lower and upper position [rad or m], in joint_state_publisher's reading.
 
         Continuous joints have −π … π whatever the file says; soft limits narrow the
-        range. So have others where the file gives no end (prismatic: 1 m); there
-        joint_state_publisher_gui ends with an error.
+        range. Other joints without an end in the file have the same range (prismatic:
+        1 m); joint_state_publisher_gui fails on those.
         """
         if self.type == "continuous":
             return (-math.pi, math.pi)
@@ -308,14 +307,14 @@ class Joint:
     def start(self) -> float:
         """The start position [rad or m]: 0, or the middle of a range without 0.
 
-        The rule is joint_state_publisher's.
+        This is joint_state_publisher's rule.
         """
         lower, upper = self.range
         return (lower + upper) / 2 if lower > 0 or upper < 0 else 0.0
 
 
 class RobotTree(NamedTuple):
-    """What a document says: name, root link, and the links and joints of its tree."""
+    """The content of a document: name, root link, links and joints of its tree."""
 
     name: str
     root: str
@@ -324,7 +323,7 @@ class RobotTree(NamedTuple):
 
 
 def _closed(limit: Limit, kind: JointType) -> tuple[float, float]:
-    """Return a range [rad or m] that has both ends: a turn, or two metres."""
+    """Return a range [rad or m] with both ends: a full turn, or two metres."""
     half = 1.0 if kind == "prismatic" else math.pi
     match limit.ends:
         case None, None:
@@ -339,13 +338,13 @@ def _closed(limit: Limit, kind: JointType) -> tuple[float, float]:
 
 @dataclass(frozen=True, slots=True)
 class MimicChain:
-    """A joint, the joint it mimics, the joint that one mimics, and so on.
+    """A joint, the joint that it mimics, the joint that this one mimics, and so on.
 
     Attributes:
-        joints: the joint itself first, each joint once.
-        end: how the chain ends: with a joint that mimics none ("free"), with one that
-            mimics a joint that does not exist ("unknown"), or with one that mimics a
-            joint of the chain ("ring").
+        joints: the chain, from the joint itself, each joint once.
+        end: end of the chain: a joint that mimics none ("free"), a joint that mimics a
+            missing joint ("unknown"), or a joint that mimics one in the chain
+            ("ring").
     """
 
     joints: tuple[Joint, ...]
@@ -365,7 +364,7 @@ def mimic_chain(joint: Joint, joints: Mapping[str, Joint]) -> MimicChain:
     """Follow a joint's mimic elements to the end.
 
     Args:
-        joint: where the chain begins.
+        joint: start of the chain.
         joints: all joints of the robot, by name.
     """
     chain = {joint.name: joint}

@@ -1,6 +1,6 @@
-"""How heavy a robot is, where its centre of mass is, and what it takes to tip it over.
+"""A robot's mass, its centre of mass, and the tilt that tips it over.
 
-All is in the root link, whose −z is down.
+All coordinates are in the root link, whose −z is down.
 """
 
 from __future__ import annotations
@@ -16,19 +16,19 @@ from sambot_viz.robot.balance.ground import Contacts, LinkTree, Meshes, contacts
 WORLD = "world"
 """A robot with this root link is fixed to the world, as in Gazebo."""
 SAME_POINT = 1e-6
-"""Corners that are nearer to each other are one [m]."""
+"""Corners closer together than this count as one [m]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Support:
-    """What a robot stands on.
+    """The support of a robot on the ground.
 
     Attributes:
-        height: of the ground [m].
-        links: those that touch it.
-        polygon: the convex hull of where they do, counter-clockwise from above [m];
-            two corners are a line, one is a point.
-        size: the longest side of the robot [m].
+        height: height of the ground [m].
+        links: links that touch it.
+        polygon: convex hull of the contacts, counter-clockwise from above [m]; two
+            corners are a line, one is a point.
+        size: longest side of the robot [m].
     """
 
     height: float
@@ -39,15 +39,15 @@ class Support:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Tipping:
-    """The way in which a robot tips over most easily.
+    """The easiest way for a robot to tip over.
 
     Attributes:
-        angle: by which the ground may be tilted [rad]; negative where the robot falls
-            over on level ground.
-        margin: of the centre of mass to the edge of the support polygon, along the
-            ground [m]; negative outside.
-        directions: from the polygon across that edge, and across those that are as
-            near, of length 1.
+        angle: tilt of the ground that the robot withstands [rad]; negative where it
+            falls over on level ground.
+        margin: distance of the centre of mass from the edge of the support polygon,
+            along the ground [m]; negative outside.
+        directions: unit vectors out of the polygon across that edge, and across edges
+            that are as near.
     """
 
     angle: float
@@ -57,14 +57,14 @@ class Tipping:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Balance:
-    """The mass of a robot, and whether it stands, in one pose of its joints.
+    """The mass of a robot, and its stability, in one pose of its joints.
 
     Attributes:
-        mass: of all links together [kg].
-        center: the centre of mass [m].
-        massless: links that have a shape and no mass, so that they do not count.
-        fixed: whether the robot is fixed to the world, and cannot tip over.
-        support: what it stands on; None where no link has a shape.
+        mass: mass of all links together [kg].
+        center: centre of mass [m].
+        massless: links with a shape but without mass, which do not count.
+        fixed: whether the robot is fixed to the world and cannot tip over.
+        support: its support; None where no link has a shape.
     """
 
     mass: float
@@ -77,7 +77,7 @@ class Balance:
     def tipping(self) -> Tipping | None:
         """The easiest way to tip it over.
 
-        None for a robot that is fixed, and for one that no polygon supports.
+        None for a fixed robot, and for one without a support polygon.
         """
         if self.fixed or self.support is None or len(self.support.polygon) < 3:
             return None
@@ -105,9 +105,9 @@ def balance(
 
     Args:
         robot: the robot.
-        poses: link → T_root_link; links that are not in it are left out.
-        meshes: gives what is in files; what is not known supports nothing.
-        gap: of what stands on the ground too, as for `contacts` [m].
+        poses: link → T_root_link; other links are ignored.
+        meshes: returns the contents of files; unknown ones support nothing.
+        gap: height above the lowest point that still touches, as for `contacts` [m].
 
     Returns:
         None where no link has a mass.
@@ -119,7 +119,7 @@ def balance(
         T_root_link, inertial = poses.get(link.name), link.inertial
         if T_root_link is None:
             continue
-        # A mass that no body has is its own finding.
+        # A mass that no body can have is a separate finding.
         if inertial is None or not 0.0 < inertial.mass < math.inf:
             if link.visuals or link.collisions:
                 massless.append(link.name)
