@@ -158,7 +158,7 @@ def convex_hull(points: Iterable[Vector2]) -> tuple[Vector2, ...]:
 
 
 def _chain(points: Sequence[Vector2]) -> list[Vector2]:
-    """Return the corners below points that are sorted along x."""
+    """Return the lower corners of points that are sorted along x."""
     chain: list[Vector2] = []
     for point in points:
         while len(chain) > 1 and not _is_left(chain[-2], chain[-1], point):
@@ -168,17 +168,17 @@ def _chain(points: Sequence[Vector2]) -> list[Vector2]:
 
 
 def _is_left(a: Vector2, b: Vector2, c: Vector2) -> bool:
-    """Return whether c lies left of the way from a to b."""
+    """Return whether c lies left of the line from a to b."""
     return (b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0])
 
 
 def _simplified(ring: list[Vector2]) -> list[Vector2]:
-    """Leave out corners that are on the line between others.
+    """Omit corners that lie on the line between others.
 
-    Only a hull tells them: of points on one line but for a rounding, those that sorting
-    puts in the middle may be the ends of it.
+    This needs the whole hull: if points lie on one line except for rounding, sorting
+    may put the ends of the line in the middle.
     """
-    # The corner that is farthest from any is an end, also of a line.
+    # The corner farthest from any other is an end, also of a line.
     start = _farthest(ring, ring[0])
     ring = ring[start:] + ring[:start]
     other = _farthest(ring, ring[0])
@@ -195,9 +195,9 @@ def _farthest(points: Sequence[Vector2], point: Vector2) -> int:
 
 
 def _bends(line: Sequence[Vector2]) -> list[Vector2]:
-    """Return the ends of a line, and its points that are beside the way between them.
+    """Return the ends of a line, and its points that lie off the way between them.
 
-    This is the way of Ramer, Douglas and Peucker.
+    This is the algorithm of Ramer, Douglas and Peucker.
     """
     (x, y), end = line[0], line[-1]
     ahead, aside = end[0] - x, end[1] - y

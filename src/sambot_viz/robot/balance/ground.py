@@ -1,4 +1,4 @@
-"""What of a robot touches the ground, when it stands on its lowest points.
+"""Finds the parts of a robot that touch the ground when it stands on its lowest points.
 
 The ground is level in the root link: gravity points along its −z. A link touches it
 with its collision shapes, or with its visual ones where it has none.
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh
 
 LARGEST_GAP = 0.004
-"""Casters are modelled up to so much too high; bodies are higher above ground [m]."""
+"""Casters are modelled up to this much too high [m]; bodies are higher above ground."""
 GAP_SHARE = 0.02
-"""A small robot has smaller gaps: this share of its longest side at most."""
+"""A small robot has smaller gaps: at most this share of its longest side."""
 FLATNESS = 0.25
-"""A foot is flat where it is uneven by less than this share of the largest gap."""
+"""A foot counts as flat below this unevenness, as a share of the largest gap."""
 _LEVEL = 0.1
-"""The axle of a wheel is at most so steep."""
+"""Largest slope of a wheel's axle."""
 
 
 class LinkTree(JointTree, Protocol):
@@ -40,17 +40,17 @@ class LinkTree(JointTree, Protocol):
 
 
 Meshes = Callable[[MeshFile], "Mesh | None"]
-"""Returns what is in a mesh file; None when that is not known."""
+"""Returns the content of a mesh file; None when that is not known."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Contacts:
-    """Where a robot touches the ground.
+    """The contacts of a robot with the ground.
 
     Attributes:
-        height: of the ground in the root link [m].
-        points: by the name of the link, in the root link [m].
-        size: the longest side of the robot [m].
+        height: height of the ground in the root link [m].
+        points: link name → contacts in the root link [m].
+        size: longest side of the robot [m].
     """
 
     height: float
@@ -63,13 +63,13 @@ class _PlacedShape:
     """One shape in the root link.
 
     Attributes:
-        link: its name.
+        link: name of its link.
         shape: the shape.
-        T_root_shape: where it is.
+        T_root_shape: pose of the shape.
         axle: direction about which the link turns without end; None for no wheel.
         hub: a point of the axle [m].
-        corners: of the box around it, in the root link [m].
-        mesh: in its file; None for other shapes.
+        corners: corners of its bounding box, in the root link [m].
+        mesh: content of its mesh file; None for other shapes.
     """
 
     link: str
@@ -82,11 +82,11 @@ class _PlacedShape:
 
     @property
     def bottom(self) -> float:
-        """No part of it is lower, in the root link [m]."""
+        """Height that no part of it is below, in the root link [m]."""
         return _height(self.corners)
 
     def foot(self, flat: float) -> Sequence[Vector3]:
-        """Return its lowest points, uneven by so much, in the root link [m]."""
+        """Return its lowest points, uneven by at most `flat`, in the root link [m]."""
         geometry = self.shape.geometry
         if self.mesh is None or not isinstance(geometry, MeshFile):
             return lowest(solid_foot(geometry, self.T_root_shape), flat)
@@ -102,13 +102,13 @@ def contacts(
     meshes: Meshes,
     gap: float | None = None,
 ) -> Contacts | None:
-    """Find what touches the ground.
+    """Find the contacts with the ground.
 
     Args:
         robot: the robot.
-        poses: link → T_root_link; other links are left out.
-        meshes: gives what is in files; what is not known touches nothing.
-        gap: what is so much higher than the lowest point touches the ground too [m];
+        poses: link → T_root_link; other links are ignored.
+        meshes: returns the contents of files; unknown ones touch nothing.
+        gap: largest height above the lowest point that still touches the ground [m];
             `LARGEST_GAP` by default, less for a small robot.
 
     Returns:
@@ -122,7 +122,7 @@ def contacts(
     if gap is None:
         gap = min(LARGEST_GAP, GAP_SHARE * size)
     flat = FLATNESS * min(gap, LARGEST_GAP)
-    # A wheel is taken for round: it may reach a little below its corners.
+    # A wheel counts as round: it may reach a little below its corners.
     sag = (1.0 - ROUND) * size
     found: list[tuple[str, Sequence[Vector3]]] = []
     ground = math.inf
@@ -166,14 +166,14 @@ def _bodies(
 
 
 def axle_of(joint: Joint | None, T_root_link: PlainPose) -> Vector3 | None:
-    """Return the direction of a wheel's axle in the root link, of length 1.
+    """Return the direction of a wheel's axle in the root link, as a unit vector.
 
     Args:
-        joint: that moves the link; None for the root link.
-        T_root_link: where the link is.
+        joint: joint that moves the link; None for the root link.
+        T_root_link: pose of the link.
 
     Returns:
-        None where the joint does not turn without end about a level axis.
+        None unless the joint turns without end about a level axis.
     """
     if joint is None or not joint.endless:
         return None
@@ -182,7 +182,7 @@ def axle_of(joint: Joint | None, T_root_link: PlainPose) -> Vector3 | None:
 
 
 def _sides(shape: Shape, mesh: Mesh | None) -> tuple[Vector2, Vector2, Vector2]:
-    """Return the ends of a shape along its x, y and z [m]."""
+    """Return the extent of a shape along its x, y and z [m]."""
     if mesh is not None and isinstance(shape.geometry, MeshFile):
         from sambot_viz.robot.balance.mesh_feet import mesh_sides
 

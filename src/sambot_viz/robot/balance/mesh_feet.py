@@ -1,4 +1,4 @@
-"""The lowest points of a mesh, and the line on which a wheel that is one rolls."""
+"""The lowest points of a mesh, and the line on which a mesh of a wheel rolls."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ _known_corners: WeakKeyDictionary[Mesh, Matrix] = WeakKeyDictionary()
 
 
 def mesh_sides(mesh: Mesh, scale: Vector3) -> tuple[Vector2, Vector2, Vector2]:
-    """Return the ends of a mesh along its x, y and z [m]."""
-    # Of a large mesh they take long.
+    """Return the extent of a mesh along its x, y and z [m]."""
+    # The computation takes long for a large mesh.
     if mesh not in _known_bounds:
         _known_bounds[mesh] = mesh.bounds
     low, high = (_known_bounds[mesh] * scale).tolist()
@@ -34,14 +34,14 @@ def mesh_foot(
     """Return the lowest points of a mesh.
 
     Args:
-        mesh: what is in the file.
+        mesh: content of the file.
         scale: factors along x, y and z.
-        T_root_shape: where it is.
-        wheel: the direction of the axle, and a point of it [m]; None for no wheel.
-        flat: they are uneven by less than that [m].
+        T_root_shape: pose of the mesh.
+        wheel: direction of the axle, and a point on it [m]; None for no wheel.
+        flat: limit for the unevenness of the points [m].
 
     Returns:
-        In the root link [m].
+        Points in the root link [m].
     """
     R = np.array(rotation_from_xyzw(T_root_shape.xyzw))
     points: Matrix = (_corners(mesh) * scale) @ np.transpose(R) + T_root_shape.position

@@ -12,12 +12,12 @@ from sambot_viz.robot.parts import Box, Capsule, Cylinder, Geometry, Sphere
 ROUND = 0.95
 """A wheel's mesh reaches this share of its radius in every direction."""
 _UPRIGHT = 0.5
-"""A cylinder whose axis is steeper (sine of the slope) stands on its end."""
+"""A cylinder with a steeper axis (sine of the slope) stands on its end."""
 _SIDES = 32
 """Corners of the polygon that represents a round end of a cylinder."""
 _ANGLES = [2.0 * math.pi * side / _SIDES for side in range(_SIDES)]
 CIRCLE = tuple((math.cos(angle), math.sin(angle)) for angle in _ANGLES)
-"""The corners of that polygon, of radius 1."""
+"""Corners of that polygon, for radius 1."""
 
 
 def half_sides(geometry: Geometry) -> Vector3:
@@ -34,14 +34,14 @@ def half_sides(geometry: Geometry) -> Vector3:
 
 
 def solid_foot(geometry: Geometry, T_root_shape: PlainPose) -> Sequence[Vector3]:
-    """Return points of a shape; its lowest ones are among them.
+    """Return points of a shape that include its lowest ones.
 
     Args:
-        geometry: no mesh.
-        T_root_shape: where it is.
+        geometry: a geometry other than a mesh.
+        T_root_shape: pose of the shape.
 
     Returns:
-        In the root link [m].
+        Points in the root link [m].
     """
     if isinstance(geometry, Box):
         corners = product(*((-half, half) for half in half_sides(geometry)))
@@ -55,13 +55,13 @@ def solid_foot(geometry: Geometry, T_root_shape: PlainPose) -> Sequence[Vector3]
 
 
 def lowest(points: Sequence[Vector3], flat: float) -> Sequence[Vector3]:
-    """Return the points that are at most so much higher than the lowest one."""
+    """Return the points that are at most `flat` higher than the lowest one."""
     bottom = min(z for _, _, z in points)
     return [point for point in points if point[2] <= bottom + flat]
 
 
 def down_across(axis: Vector3) -> Vector3:
-    """Return the direction at right angles to an axis that is down most, length 1."""
+    """Return the unit vector across an axis that points down most."""
     x, y, z = axis
     down = (x * z, y * z, z * z - 1.0)
     length = math.hypot(*down)

@@ -65,9 +65,9 @@ _DOUBTS = {
 _BY_NAME = frozenset(
     {"other-machine", "path-only", "three-slashes", "model-scheme", "name-form"}
 )
-"""Doubts that the name of the package in package:// ends."""
+"""Doubts that concern the name of the package in package://."""
 _MESHES = (".stl", ".stlb", ".dae", ".obj", ".glb", ".gltf", ".ply")
-"""Endings of the mesh files that are read."""
+"""Endings of the supported mesh files."""
 _NOT_FOUND, _STAND_IN = " was not found: ", "; a placeholder is drawn"
 _OUTSIDE = "it is outside the model's folder and packages, and the model is not trusted"
 
@@ -81,7 +81,7 @@ class FileFinder:
     """Finds meshes and textures; reports each that is missing or doubtful once.
 
     Attributes:
-        roots: the folders that files may be in, resolved; None for no limit.
+        roots: folders from which files may come, resolved; None for no limit.
     """
 
     def __init__(
@@ -96,7 +96,7 @@ class FileFinder:
         Args:
             folder: the model's folder, or None for a model given as text.
             package_path: as for `load_robot`.
-            findings: where problems go.
+            findings: receives the problems.
             trusted: False finds nothing outside the model's folder and packages.
         """
         self._where = (folder, package_path)
@@ -110,7 +110,7 @@ class FileFinder:
 
     @cached_property
     def _resolver(self) -> FileResolver:
-        # The import is late: most robots have no meshes.
+        # Imported late: most robots have no meshes.
         from sambot_viz.robot.packages.resolve import FileResolver
 
         return FileResolver(PackageIndex(*self._where), self._where[0])
@@ -139,7 +139,7 @@ class FileFinder:
         return found.path
 
     def _is_outside(self, found: Resolution) -> bool:
-        """Tell whether an untrusted model may not name this file, found or missing."""
+        """Return whether an untrusted model may not use this file, found or missing."""
         if self.roots is None:
             return False
         if found.path is not None:
@@ -210,7 +210,7 @@ class FileFinder:
     def _with_near_package(
         self, filename: str, found: Resolution, element: Element
     ) -> str | Fix:
-        """Advise to name a package with a name like it, or with words behind it."""
+        """Suggest a package with a similar name, or with a longer one."""
         if right := _with_right_package(filename, found):
             return write_path(element.place, filename, right)
         right = _with_longer_name(filename, found)
@@ -228,10 +228,10 @@ class FileFinder:
 
 
 def why_not_found(problems: Iterable[Problem]) -> str:
-    """Return why a mesh was not found, and what to do; empty when it was.
+    """Explain why a mesh is missing, with a remedy; empty when it is not.
 
     Args:
-        problems: of a model with a single mesh, which a message names.
+        problems: problems of a model with a single mesh.
     """
     for problem in problems:
         if problem.code == "mesh-not-found":
@@ -241,7 +241,7 @@ def why_not_found(problems: Iterable[Problem]) -> str:
 
 
 def _with_right_package(filename: str, found: Resolution) -> str:
-    """Name the package that was meant by a misspelt one, if one is here."""
+    """Suggest the package for a misspelt name, if there is one here."""
     package = found.missing_package
     near = meant(package, found.known_packages) if package else None
     if package is None or near is None or not is_one_slip(package, near):
@@ -250,9 +250,9 @@ def _with_right_package(filename: str, found: Resolution) -> str:
 
 
 def _with_longer_name(filename: str, found: Resolution) -> str:
-    """Name the only package that has the name and words behind it, if one is here."""
+    """Suggest the only package whose name extends this one, if there is one here."""
     package = found.missing_package
-    # One package may be there several times, as in the folders src and install.
+    # One package may appear several times, as in the folders src and install.
     longer = [*{n for n in found.known_packages if n.startswith(f"{package}_")}]
     if package is None or len(longer) != 1:
         return ""
@@ -260,7 +260,7 @@ def _with_longer_name(filename: str, found: Resolution) -> str:
 
 
 def _named(element: Element, filename: str, tried: Path, meant: Path) -> Fix:
-    """Return the fix that names a file in the way in which another is named."""
+    """Return the fix that names a file in the style of another name."""
     uri = _in_package(meant)
     if filename.startswith("package://") and uri:
         return write_path(element.place, filename, uri)
@@ -268,7 +268,7 @@ def _named(element: Element, filename: str, tried: Path, meant: Path) -> Fix:
 
 
 def _in_package(path: Path | None) -> str:
-    """Return the package:// name of a file; empty for one that is in no package."""
+    """Return the package:// name of a file; empty for one outside all packages."""
     folder = None if path is None else package_around(path)
     if path is None or folder is None or not (folder / "package.xml").is_file():
         return ""
@@ -281,14 +281,14 @@ def _below_package(path: Path) -> str:
 
 
 def _file_in(folder: Path, filename: str) -> str:
-    """Advise which file to name instead of a folder."""
+    """Suggest a file to name instead of a folder."""
     inside = sorted(p.name for p in folder.iterdir() if p.suffix.lower() in _MESHES)
     example = f", such as {filename.rstrip('/')}/{inside[0]}" if inside else ""
     return f"write the name of a mesh file{example}"
 
 
 def _home_of(filename: str) -> str:
-    """Name what files of one package, or of one folder, have in common."""
+    """Describe the common place of files of one package, or of one folder."""
     scheme, separator, rest = filename.partition("://")
     if separator and scheme in ("package", "model"):
         return f"package {rest.partition('/')[0]}" if rest[:1] != "/" else "no package"

@@ -1,7 +1,8 @@
-r"""Recognise forms of file names that ROS does not read, and what was meant by them.
+r"""Recognise forms of file names that ROS does not read, and the intended names.
 
 Names with ``\``, with a shell's ``~`` or with too few slashes come from other programs
-and other systems. Only the standard library is used here: the xacro child imports this.
+and other systems. The xacro child imports this module, so it uses only the standard
+library.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ class NameForm(NamedTuple):
     """A form that ROS does not read.
 
     Attributes:
-        cause: what is wrong with the name.
-        hint: how to write it.
-        right: the name that was meant.
+        cause: fault of the name.
+        hint: correct notation.
+        right: intended name.
     """
 
     cause: str
@@ -31,7 +32,7 @@ class NameForm(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class _Row:
-    """One form: the text that has it, and what is written in its place."""
+    """One form: the text that identifies it, and its replacement."""
 
     pattern: re.Pattern[str]
     meant: str | Callable[[re.Match[str]], str]
@@ -93,16 +94,16 @@ _ROWS = (
 
 
 def _scheme(written: str) -> str:
-    """Return the scheme that was meant by one with other letters."""
+    """Return the scheme for a misspelt one."""
     lower = written.lower()
     return f"{lower}://" if lower in _KNOWN else "package://"
 
 
 def name_form(name: str) -> NameForm | None:
-    """Return what is wrong with the form of a file name, or None where nothing is.
+    """Return the fault in the form of a file name; None where there is none.
 
     Args:
-        name: of a mesh, a texture or an included file, as written.
+        name: name of a mesh, a texture or an included file, as written.
     """
     right = name
     found: list[_Row] = []

@@ -1,4 +1,4 @@
-"""Find the file of a package that was meant by the path of one that is not there."""
+"""Finds the intended file in a package for a path that does not exist."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _KINDS = (
     frozenset((".png", ".jpg", ".jpeg", ".tga", ".bmp")),
     frozenset((".xacro", ".urdf", ".sdf", ".gazebo", ".xml")),
 )
-"""Endings of files that may stand for each other."""
+"""Endings of files that can replace each other."""
 _LONG = 3
 
 
@@ -28,7 +28,7 @@ def _bare(name: str) -> str:
 
 
 def _misspelt(one: str, other: str) -> bool:
-    """Tell whether one word differs in a letter: l_ and r_, and numbers, are meant."""
+    """Return whether a letter differs; l_ and r_, and numbers, differ on purpose."""
     words = [re.findall(r"[a-z]+|\d+", _bare(name)) for name in (one, other)]
     differing = [pair for pair in zip(*words, strict=False) if pair[0] != pair[1]]
     return (
@@ -47,17 +47,17 @@ _LIKE: tuple[Callable[[str, str], bool], ...] = (
     lambda one, other: _letters(one) == _letters(other),
     _misspelt,
 )
-"""How the names of two files are alike, the surest first."""
+"""Ways in which two file names are similar, the surest first."""
 
 
 def near_file(missing: Path) -> Path | None:
-    """Return the file that was meant: in another folder, or with another name there.
+    """Return the intended file: in another folder, or there under another name.
 
     Args:
-        missing: a path in a package at which there is no file.
+        missing: path in a package at which there is no file.
 
     Returns:
-        None when none of the package's files, or several, may be meant.
+        None when no file of the package is a candidate, or several are.
     """
     missing = missing.absolute()
     above = (folder for folder in missing.parents[:2] if folder.is_dir())
@@ -78,7 +78,7 @@ def near_file(missing: Path) -> Path | None:
 
 
 def _in_near_folder(found: list[PurePosixPath], folder: str) -> list[PurePosixPath]:
-    """Leave those files of a name whose folder was meant by one that is misspelt."""
+    """Keep the files of a name whose folder has a similar name."""
     if len(found) == 1:
         return found
     near = meant(folder, [str(file.parent) for file in found])
@@ -86,7 +86,7 @@ def _in_near_folder(found: list[PurePosixPath], folder: str) -> list[PurePosixPa
 
 
 def _files_like(root: Path, wanted: PurePosixPath) -> list[PurePosixPath]:
-    """Return the files of the kind that is wanted, as paths in the package."""
+    """Return the files of the wanted kind, as paths in the package."""
     ending = wanted.suffix.lower()
     kinds = [kind for kind in _KINDS if ending in kind] or [frozenset((ending,))]
     endings: Iterable[str] = kinds[0] if ending else frozenset[str]().union(*_KINDS)

@@ -1,7 +1,7 @@
 """Find ROS packages without ROS.
 
-Only the standard library is used here: the xacro child reads this module too and
-must start fast.
+The xacro child reads this module too and must start fast, so it uses only the standard
+library.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ class Lookup(NamedTuple):
     """The answer to "where is this package?".
 
     Attributes:
-        name: the package asked for.
+        name: name of the package.
         path: its folder, or None.
-        searched: the places that were looked at, as text for a message.
-        known: names of the packages that were found on the way.
-        installed: it is where packages are installed, not in the workspace.
+        searched: searched places, as text for a message.
+        known: names of other packages found during the search.
+        installed: whether it is an installed package, not one of the workspace.
     """
 
     name: str
@@ -47,7 +47,7 @@ class Lookup(NamedTuple):
 
 
 def places_of(searched: Sequence[str]) -> str:
-    """Return the places of a look-up for a message, and what was not searched."""
+    """Return the places of a look-up for a message, and the ones not searched."""
     rest = [place for place in searched[_MOST_NAMED:] if place.startswith(_NOT_ALL)]
     return ", ".join([*searched[:_MOST_NAMED], *rest]) or "nowhere"
 
@@ -72,14 +72,14 @@ def package_name(folder: Path) -> str | None:
 
 
 def package_of(file: Path) -> Path:
-    """Return the folder of the package that a file is in, or the folder it is in."""
+    """Return the folder of a file's package, or the file's folder without one."""
     beside = file.absolute().parent
     above = (beside, *beside.parents)
     return next((each for each in above if package_name(each) is not None), beside)
 
 
 def package_around(file: Path) -> Path | None:
-    """Return the folder of the package that a file is in; None when it is in none."""
+    """Return the folder of a file's package; None without one."""
     folders = PackageIndex(file.absolute().parent).ancestors()
     return next((folder for folder in folders if package_name(folder)), None)
 
@@ -102,9 +102,9 @@ class PackageIndex:
 
         Args:
             start: folder of the model, or None for a model given as text.
-            package_path: what the user gave: package folders, folders of packages,
-                or ``name=folder``.
-            environment: where to look for ROS's path variables; default os.environ.
+            package_path: the user's package folders, folders of packages, or
+                ``name=folder``.
+            environment: environment with ROS's path variables; default os.environ.
         """
         self._start = start.absolute() if start is not None else None
         self._environment = os.environ if environment is None else environment
@@ -120,9 +120,9 @@ class PackageIndex:
         self._scans: dict[Path, _Scan] = {}
 
     def find(self, name: str) -> Lookup:
-        """Look a package up; the answer is kept.
+        """Look a package up, and cache the answer.
 
-        A text that is no name of a package, such as "/" or "../x", is not found and
+        A text that cannot be a package name, such as "/" or "../x", finds nothing and
         touches no file: as a part of a path it would lead anywhere.
         """
         if not _PLAUSIBLE.fullmatch(name):
@@ -142,7 +142,7 @@ class PackageIndex:
             yield folder
 
     def own_roots(self) -> list[Path]:
-        """Return the folders of the model: its own, its package, and those given."""
+        """Return the folders of the model: its own, its package's, and the user's."""
         roots = [*self._folders, *self._given.values()]
         if self._start is not None:
             roots.append(self._start)
@@ -152,7 +152,7 @@ class PackageIndex:
         return roots
 
     def below(self) -> dict[str, Path]:
-        """Return the packages at and below the user's folders, by their names."""
+        """Return the packages at and below the user's folders, by name."""
         found = dict(self._given)
         for folder in self._folders:
             scan = self._scan(folder, limits.SEARCHED_FOLDERS.value)
@@ -218,7 +218,7 @@ class PackageIndex:
         yield from folders[: end + 1]
 
     def _beside(self, name: str) -> Path | None:
-        """A folder of that name above the model, or beside a folder above it."""
+        """Return a folder of that name above the model, or beside such a folder."""
         for folder in self.ancestors():
             if folder.name == name:
                 return folder
@@ -247,11 +247,11 @@ class _Scan:
     """The packages at and below one folder, nearest first.
 
     Attributes:
-        packages: their folders, by their names.
-        folders: each folder, by its name.
-        size: how many folders were looked at.
-        has_more: more folders are there than could be looked at.
-        left_out: says that not all was searched; empty when it was.
+        packages: folders of the packages, by name.
+        folders: each folder, by name.
+        size: number of searched folders.
+        has_more: whether more folders exist than the limit allows.
+        left_out: description of the places not searched; empty without any.
     """
 
     def __init__(self, top: Path, budget: int, done: Mapping[Path, _Scan]) -> None:

@@ -1,7 +1,7 @@
-"""The model that a package folder is about, when the user names only the folder.
+"""Finds the main model of a package when the user names only the folder.
 
-The files are searched as text, not parsed: a model with a mistake in it must be found
-too, so that the mistake can be explained.
+The search reads the files as text and does not parse them: it must also find a model
+with a mistake, so that the mistake can be explained.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from sambot_viz.files import read_limited
 from sambot_viz.robot.packages.package_index import MANIFESTS, package_name
 
 MODEL_ENDINGS = (".urdf.xacro", ".urdf", ".xacro", ".sdf.xacro", ".sdf")
-"""Endings of the names of models, the most likely one first."""
+"""Endings of model names, the most likely one first."""
 
 _FOLDERS = (
     "urdf",
@@ -41,13 +41,13 @@ _LINK = re.compile(r"<link\b")
 _WORLD = re.compile(r"<world\b")
 _STATIC = re.compile(r"<static>\s*(?:1|true)\s*</static>")
 _SEMANTIC = ".srdf.xacro"
-"""MoveIt's description of a robot, which has names of links and no links."""
+"""MoveIt's description of a robot, which names links but defines none."""
 _CALL = re.compile(r"<xacro:(?!property|arg\b|include|macro|insert_block|element|attr)")
 _UNKNOWN = re.compile(
     r"<(?![/?!]|robot\b|include\b|material\b|color\b|texture\b"
     r"|xacro:(?:property|arg|include|macro)\b)"
 )
-"""An element that may be the call of a macro without its prefix."""
+"""An element that may be a macro call without its prefix."""
 _EXPRESSION = re.compile(r"\$[({][^)}]*[)}]")
 
 
@@ -56,9 +56,9 @@ class _ModelFile(NamedTuple):
 
     Attributes:
         path: the file.
-        has_links: it has links, or calls something that may.
-        includes: the files it includes, as it writes them.
-        may_be_robot: it is neither a world nor MoveIt's description of a robot.
+        has_links: whether it has links, or calls that may create some.
+        includes: files that it includes, as written.
+        may_be_robot: whether it is neither a world nor MoveIt's description of a robot.
     """
 
     path: Path
@@ -68,24 +68,24 @@ class _ModelFile(NamedTuple):
 
     @property
     def builds_links(self) -> bool:
-        """True when it has links, or calls or includes something that may."""
+        """Return whether it has links, or calls or includes that may create some."""
         return self.may_be_robot and (self.has_links or bool(self.includes))
 
 
 @dataclass(slots=True)
 class ModelWalk:
-    """A walk through a folder that looks for files with the ending of a model.
+    """A walk through a folder in search of files with a model's ending.
 
     Attributes:
-        left_out: what the walk did not search, as a sentence; "" when it was all.
+        left_out: the folders that it did not search, as a sentence; "" if none.
     """
 
     left_out: str = ""
 
     def files(self, top: Path) -> Iterator[Path]:
-        """Yield the files; other packages inside the folder are left out.
+        """Yield the files, without those of other packages inside the folder.
 
-        When the folder is not a package itself, all packages in it are searched.
+        If the folder is not a package itself, search all packages in it.
         """
         in_package = package_name(top) is not None
         count = 0
@@ -112,14 +112,14 @@ class ModelWalk:
 
 
 def models_in(folder: Path, walk: ModelWalk) -> list[Path]:
-    """Return the files of a folder that may be shown by themselves, sorted.
+    """Return the files of a folder that are complete models, sorted.
 
-    Files without links, with nothing but macros, or included by another file are
-    left out. Models for tests count only when there are no others.
+    The result omits files without links, files with only macros, and files that another
+    file includes. Models for tests count only when there are no others.
 
     Args:
-        folder: is searched.
-        walk: searches it, and says afterwards what it has left out.
+        folder: the folder to search.
+        walk: searches the folder, and reports afterwards what it left out.
     """
     paths = list(walk.files(folder))
     products = [p for p in paths if not is_for_tests(p.relative_to(folder))]
@@ -132,13 +132,13 @@ def models_in(folder: Path, walk: ModelWalk) -> list[Path]:
 
 
 def is_scenery(path: Path) -> bool:
-    """Tell whether a file in SDF never moves: it is a part of a world, not a robot."""
+    """Return whether an SDF file never moves: it is part of a world, not a robot."""
     is_sdf = "sdf" in model_ending(path.name)
     return is_sdf and bool(_STATIC.search(_text_of(path)))
 
 
 def _is_model_in_world(path: Path) -> bool:
-    """Return whether a file is a robot inside a <world>, which is said when it is read.
+    """Return whether a file is a robot inside a <world>, which its reader reports.
 
     A world has its own folder, or the word in its name.
     """
@@ -169,13 +169,13 @@ def _complete_models(paths: Sequence[Path]) -> list[Path]:
 def _brings_links(
     file: _ModelFile, files: Sequence[_ModelFile], names: Sequence[str], seen: set[Path]
 ) -> bool:
-    """Return whether a file has links, or includes one that has some or is not here.
+    """Return whether a file has links, or includes a file with links or a missing one.
 
     Args:
-        file: is looked at.
-        files: those of the package.
+        file: the file.
+        files: files of the package.
         names: their names.
-        seen: files that were looked at.
+        seen: files already visited.
     """
     if file.has_links:
         return True
@@ -189,17 +189,17 @@ def _brings_links(
 
 
 def is_model(path: Path) -> bool:
-    """Return whether a file may be shown by itself: it has links, or calls for some."""
+    """Return whether a file is a complete model: it has links, or calls for some."""
     return _look_at(path).builds_links
 
 
 def choose_model(folder: Path, models: Sequence[Path]) -> Path | None:
     """Choose the obvious one of several models, or None.
 
-    It is the only one, the one that is named like the package, the only one that a
-    launch file names, the one whose name the others extend ("arm" beside "arm_gazebo"),
-    or the only one with the most likely ending and folder; the first rule that finds
-    one decides.
+    The rules in order: the only model; the model with the package's name; the only one
+    that a launch file names; the one whose name the others extend ("arm" beside
+    "arm_gazebo"); the only one with the most likely ending and folder. The first rule
+    that finds a model decides.
     """
     models = _without_generated(models)
     rules: tuple[Callable[[Path, Sequence[Path]], list[Path]], ...] = (
@@ -241,7 +241,7 @@ def _look_at(path: Path) -> _ModelFile:
 
 
 def _is_included(path: Path, include: str, names: Sequence[str]) -> bool:
-    """Return whether an include means this file, as far as is known without xacro."""
+    """Return whether an include names this file, as far as is known without xacro."""
     tail = _EXPRESSION.split(include)[-1].lstrip("./")
     if f"/{path.as_posix()}".endswith(f"/{tail}"):
         return bool(tail)
@@ -250,7 +250,7 @@ def _is_included(path: Path, include: str, names: Sequence[str]) -> bool:
 
 
 def _without_generated(models: Sequence[Path]) -> list[Path]:
-    """Leave out x.urdf beside x.urdf.xacro: it was made from it."""
+    """Omit x.urdf beside x.urdf.xacro, which generated it."""
     known = set(models)
     return [
         path

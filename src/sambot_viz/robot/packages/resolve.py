@@ -1,8 +1,8 @@
 """Resolve the file names in models to files on this machine.
 
 The package's name counts first; the end of the path is only the last resort, because
-two packages may have files of the same name. Only the standard library is used here:
-the xacro child reads this module too.
+two packages may have files of the same name. The xacro child reads this module too, so
+it uses only the standard library.
 """
 
 from __future__ import annotations
@@ -33,29 +33,29 @@ Doubt = Literal[
     "model-scheme",
     "name-form",
 ]
-"""The reason why ROS would not find a file that was found here by this name."""
+"""The reason why ROS would not find a file that this module has found."""
 
 _HERE = ("localhost/", "127.0.0.1/")
-"""Computers that file:// may name before a path, as RViz reads it."""
+"""Hosts that file:// may name before a path, in RViz's reading."""
 _INSTALLED = re.compile(
     r"^\s*install\s*\(\s*DIRECTORY\s+([^()#]*?)\s+DESTINATION\s+"
     r"\"?share/\$\{PROJECT_NAME\}/?\"?\s*\)",
     re.MULTILINE,
 )
-"""Folders that are installed with what is in them, by their names."""
+"""Folders that packages install with all their content."""
 _OF_WINDOWS = re.compile(r"[A-Za-z]:[\\/]|\\\\")
 
 
 @dataclass(frozen=True, slots=True)
 class Resolution:
-    """The place of a file, or the places where it was looked for.
+    """The place of a file, or the searched places.
 
     Attributes:
         path: the file, or None.
-        searched: what was tried, in order, as text for a message.
+        searched: attempts in order, as text for a message.
         doubt: set when ROS would not find a file by this name.
-        missing_package: the package that was not found, when that is the reason.
-        known_packages: those that were found while it was looked for.
+        missing_package: the missing package, when that is the reason.
+        known_packages: packages found during the search.
         form: set when ROS does not read names of this form.
     """
 
@@ -74,7 +74,7 @@ class FileResolver:
         """Prepare.
 
         Args:
-            index: where packages are.
+            index: finds packages.
             folder: the model's folder; relative names start there.
         """
         self._index = index
@@ -82,7 +82,7 @@ class FileResolver:
         self._answers: dict[str, Resolution] = {}
 
     def resolve(self, name: str) -> Resolution:
-        """Find the file that a model means by `name`; the answer is kept.
+        """Find the file that a model calls `name`, and cache the answer.
 
         Args:
             name: "package://pkg/…", "model://…", "file://…", a relative or an
@@ -98,7 +98,7 @@ class FileResolver:
         return self._answers[name]
 
     def _resolve_form(self, name: str) -> Resolution:
-        """Find a file by its name, else by what was meant by the form of the name."""
+        """Find a file by its name, else by the intended name for its form."""
         found = self._resolve(name)
         form = name_form(name) if found.path is None else None
         if form is None:
@@ -121,7 +121,7 @@ class FileResolver:
         return Resolution(None, (f"{scheme} addresses are not fetched",))
 
     def _file(self, rest: str) -> Resolution:
-        """A file of "file://rest": a path, after the name of this computer or none."""
+        """Return a file of "file://rest": a path, with or without this host's name."""
         for computer in _HERE:
             if rest.startswith(computer):
                 return self._plain(rest[len(computer) - 1 :])
@@ -153,7 +153,7 @@ class FileResolver:
         return found
 
     def _without_package(self, tail: str) -> Resolution:
-        """A file of "package:///tail": the package is the first folder, or missing."""
+        """Resolve "package:///tail": the package is the first folder, or missing."""
         package, _, rest = tail.partition("/")
         root = self._index.find(package).path if rest else None
         found = None if root is None else self._below(root, rest).path
@@ -161,7 +161,7 @@ class FileResolver:
         return Resolution(found, ("the folders above the model",), "three-slashes")
 
     def _below(self, root: Path, tail: str) -> Resolution:
-        """A file below a package folder, by its path, its case or its layout."""
+        """Find a file below a package folder, by its path, its case or its layout."""
         path = root / tail
         for candidate in (path, root / unquote(tail)):
             if candidate.is_file():
@@ -192,7 +192,7 @@ class FileResolver:
         return Resolution(found, (str(path),), doubt)
 
     def _other_machine(self, path: Path) -> Resolution:
-        """The part of another machine's absolute path after a package known here."""
+        """Find the part of another machine's absolute path after a known package."""
         parts = path.parts
         for position in range(len(parts) - 2, 0, -1):
             lookup = self._index.find(parts[position])
@@ -204,7 +204,7 @@ class FileResolver:
         return Resolution(None, (str(path),))
 
     def _by_tail(self, tail: str) -> Path | None:
-        """The same path below one of the folders above the model."""
+        """Return the same path below one of the folders above the model."""
         if ".." in PurePosixPath(tail).parts:
             return None
         for folder in self._index.ancestors():
@@ -214,7 +214,7 @@ class FileResolver:
 
 
 def _is_inner(folder: Path) -> bool:
-    """Return whether a folder is not a package, but one in a package."""
+    """Return whether a folder is not a package, but lies in one."""
     return package_name(folder) is None and package_around(folder) is not None
 
 
@@ -268,7 +268,7 @@ def inside_package(
 
 
 def is_installed_as_is(root: Path, file: Path) -> bool:
-    """Tell whether a file of a package is installed where it is in the source tree."""
+    """Return whether a package installs a file at its place in the source tree."""
     try:
         text = (root / "CMakeLists.txt").read_text("utf-8", "replace")
     except OSError:
@@ -279,7 +279,7 @@ def is_installed_as_is(root: Path, file: Path) -> bool:
 
 
 def walk_below(root: Path) -> Iterator[tuple[Path, list[str]]]:
-    """Give the folders of a package, as many as are looked at, with their files."""
+    """Yield the folders of a package with their files, up to the limit."""
     count = 0
     for folder, children, files in os.walk(root):
         children[:] = sorted(c for c in children if not c.startswith("."))

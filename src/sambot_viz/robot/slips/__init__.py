@@ -1,1 +1,1 @@
-"""Slips: words that are near what was meant, and what follows from them."""
+"""Slips: words close to the intended ones, and their consequences."""

@@ -1,4 +1,4 @@
-"""The axle of a wheel, by the cylinder that is the wheel."""
+"""The axle of a wheel, from the wheel's cylinder."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ _UNIT = 0.999
 
 
 def axle_of(joint: Element) -> str | None:
-    """Return the direction of the middle line of the cylinder that a joint turns.
+    """Return the direction of the axis of the cylinder that a joint turns.
 
     Args:
         joint: a <joint> of URDF or SDF.
 
     Returns:
-        The axis as one writes it, such as "0 1 0"; None when there is no cylinder, or
-        its middle line is along no axis of the joint.
+        The axis in a file's notation, such as "0 1 0"; None without a cylinder, or if
+        its axis is along no axis of the joint.
     """
     child = joint.find("child")
     name = "" if child is None else child.get("link") or child.text.strip()
@@ -37,7 +37,7 @@ def axle_of(joint: Element) -> str | None:
 
 
 def _angles(element: Element) -> list[float]:
-    """Return roll, pitch and yaw of a shape, or of what is placed in SDF [rad]."""
+    """Return roll, pitch and yaw of a shape, or of an element in SDF [rad]."""
     origin, pose = element.find("origin"), element.find("pose")
     text = "0 0 0"
     if pose is not None:

@@ -1,4 +1,4 @@
-"""Names of links with a blank inside, which joints write without it."""
+"""Link names that contain a blank, which joints write without it."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ def written_with_blank(
     """Return the link that a joint means by a name without blanks, or None.
 
     Args:
-        name: what the joint says, which is not a link.
-        links: the names of the links.
-        named: the names that joints say: a link among them is left as it is.
+        name: name in the joint, which is not a link.
+        links: names of the links.
+        named: names in all joints; a link among them cannot be the answer.
     """
     plain = _plain(name)
     for link in links:

@@ -1,4 +1,4 @@
-"""Colours that were written in another range than 0 to 1."""
+"""Colours in a range other than 0 to 1."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ _BYTE = 255.0
 
 
 def in_unit_range(parts: Iterable[float]) -> tuple[str, str | None]:
-    """Return what a colour outside of 0 to 1 looks like, and what to write.
+    """Describe a colour outside of 0 to 1, and return the correct values.
 
     Args:
-        parts: its components; those of 0 to 1 stay, as an opacity of 1 often does.
+        parts: its components; those from 0 to 1 stay, as an opacity of 1 often does.
 
     Returns:
         Words for a message, which may be empty, and the components from 0 to 1; None
-        where it is not certain which range was meant.
+        where the intended range is not certain.
     """
     values = list(parts)
     largest = max(values)
@@ -31,5 +31,5 @@ def in_unit_range(parts: Iterable[float]) -> tuple[str, str | None]:
     else:
         return "", None
     units = (part if part <= 1 else part / full for part in values)
-    # A component below 0 has a sign too many.
+    # A negative component has a sign too many.
     return looks, " ".join(f"{min(abs(part), 1.0):.3g}" for part in units)

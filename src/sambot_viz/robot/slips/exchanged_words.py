@@ -1,4 +1,4 @@
-"""Two attributes whose values are exchanged: each has the word that the other needs."""
+"""Two attributes with swapped values: each has the word that the other needs."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ def exchanged(element: Element, name: str, words: Container[str]) -> Fix | None:
     """Return the fix where another attribute has the word that one needs.
 
     Args:
-        element: any.
-        name: an attribute whose value is not one of the words.
-        words: those that it may have.
+        element: the element.
+        name: attribute with a value outside the words.
+        words: words that it may have.
     """
     mine = element.get(name)
     for other, value in element.attributes.items():

@@ -1,7 +1,7 @@
-"""Report misspelt names first, and keep back the problems that only follow from them.
+"""Reports misspelt names first, and suppresses problems that only follow from them.
 
-The names are corrected one after the other in a copy of the document, which is read
-again each time: a problem that is gone with a name was a consequence of it.
+This module corrects the names one by one in a copy of the document, and reads it again
+each time: a problem that vanishes with a name was a consequence of it.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from sambot_viz.robot.slips.slip_words import slip_in_words
 from sambot_viz.robot.xml.element import Element
 
 Read = Callable[[Element, ModelFindings], object]
-"""Reads a document again, without looking for files."""
+"""Reads a document again, without a search for files."""
 
 _MOST = 20
-"""Number of corrections after which all others are made at once."""
+"""Number of single corrections; all further ones happen at once."""
 
 _Key = tuple[str, str | None, int | None]
 
@@ -30,9 +30,9 @@ def report_slips(
     """Add the misspelt names of a document to its problems, in place of follow-ups.
 
     Args:
-        document: the root element; it is not changed.
+        document: root element, which stays unchanged.
         slips: its misspelt names and misplaced elements, in document order.
-        findings: what was found in it, which changes.
+        findings: findings in it, which change.
         read: finds the problems of a corrected document.
     """
     copies = _copied(document)
@@ -47,7 +47,7 @@ def report_slips(
         if _MOST < number < len(groups):
             continue
         after = _reading(corrected, read, excused)
-        # What came only with another correction is nothing that ROS says.
+        # ROS never reports a problem that only appears with another correction.
         gone: list[Severity] = [
             found
             for key, found in before.found.items()
@@ -64,7 +64,7 @@ def report_slips(
 
 @dataclass(frozen=True, slots=True)
 class _Reading:
-    """What is wrong with a document, and whether ROS refuses it."""
+    """The problems of a document, and whether ROS refuses it."""
 
     found: dict[_Key, Severity]
     rejected: bool
@@ -101,7 +101,7 @@ def _report(
 
 
 def _by_place(slips: Iterable[Slip]) -> Iterator[list[Slip]]:
-    """Yield what was written once together: a macro repeats its mistakes."""
+    """Yield slips with the same source together: a macro repeats its mistakes."""
     groups: dict[tuple[object, ...], list[Slip]] = {}
     for slip in slips:
         key = (slip.element.place, slip.attribute, slip.right)
@@ -110,7 +110,7 @@ def _by_place(slips: Iterable[Slip]) -> Iterator[list[Slip]]:
 
 
 def _copied(document: Element) -> dict[int, Element]:
-    """Copy a tree; returns the copy of each element by the `id` of the original."""
+    """Copy a tree; return the copy of each element by the `id` of the original."""
     copies: dict[int, Element] = {}
     for element in document.iter():
         copy = Element(

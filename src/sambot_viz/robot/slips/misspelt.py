@@ -1,8 +1,8 @@
-"""Find names that a format does not know but that were meant to be some it knows.
+"""Find names that a format does not know but that stand for names it knows.
 
-A name counts as misspelt only where the right one would mean something: an <orgin> in a
-joint that has no <origin>. Other unknown names are left alone, because every program
-may add elements of its own.
+A name counts as misspelt only where the right one would have a meaning: an <orgin> in a
+joint that has no <origin>. Other unknown names are ignored, because every program may
+add its own elements.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from sambot_viz.robot.slips.vocabulary import Vocabulary, meant
 from sambot_viz.robot.xml.element import Element
 
 _FAR = 30
-"""How many elements around, before and after a misplaced one are looked at."""
+"""Number of elements to search around, before and after a misplaced one."""
 CALL = "xacro:"
-"""How the right name of a macro call begins."""
+"""Prefix of a macro call's correct name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,12 +28,12 @@ class Slip:
 
     Attributes:
         element: the element.
-        right: the name that was meant; of an element at a wrong place its own.
-        attribute: the attribute that has the wrong name, or None.
-        parents: the elements that a misplaced one may be in; empty for others.
-        target: the element that a misplaced one was meant to be in, if one is there.
-        around: the elements that are missing around a misplaced one, outermost first.
-        behind: other elements, directly behind a misplaced one, that share its remedy.
+        right: the intended name; for a misplaced element, its current one.
+        attribute: the attribute with the wrong name, or None.
+        parents: elements that may contain a misplaced one; empty for others.
+        target: existing element that should contain a misplaced one.
+        around: elements that are missing around a misplaced one, outermost first.
+        behind: elements directly after a misplaced one that share its remedy.
     """
 
     element: Element
@@ -51,10 +51,10 @@ def find_slips(
     """Find all misspelt names and misplaced elements, in document order.
 
     Args:
-        document: the root element.
-        vocabulary: the names of its format.
-        macros: those of xacro; their names without the prefix are calls. The calls
-            directly below the root are left out, because xacro's reader reports them.
+        document: root element.
+        vocabulary: names of its format.
+        macros: macros of xacro, whose names without the prefix are calls. Calls
+            directly below the root are omitted, because xacro's reader reports them.
     """
     root = vocabulary.root
     if document.tag != root and (
@@ -71,7 +71,7 @@ class _Search(NamedTuple):
     macros: Set[str]
 
     def below(self, top: Element, tag: str) -> Iterator[Slip]:
-        """Find the slips of an element that is, or was meant to be, one with a tag."""
+        """Find the slips of an element with a tag, or with a slip of that tag."""
         stack: list[tuple[Element, str, Slip | None]] = [(top, tag, None)]
         while stack:
             element, tag, slip = stack.pop()
@@ -87,7 +87,7 @@ class _Search(NamedTuple):
     def _children(
         self, element: Element, tag: str
     ) -> Iterator[tuple[Element, str, Slip | None]]:
-        """Yield the children, which element each is meant to be, and its slip."""
+        """Yield the children, each with its intended element and its slip."""
         free: list[str] | None = None
         left = limits.SLIPS.value
         known = self.vocabulary.words[tag].has
@@ -118,7 +118,7 @@ class _Search(NamedTuple):
     def _child(
         self, number: int, parent: Element, tag: str, free: list[str]
     ) -> Slip | None:
-        """Return what is wrong with a child that its parent does not know."""
+        """Return the fault of a child that its parent does not know."""
         child = parent.children[number]
         if child.tag in self.macros:
             at_root = tag == self.vocabulary.root
@@ -134,7 +134,7 @@ class _Search(NamedTuple):
         return misplaced(number, parent, tag, self.vocabulary)
 
     def _by_attributes(self, child: Element, tag: str, free: list[str]) -> str | None:
-        """Return the only element whose attributes an unknown one has."""
+        """Return the only element that has the attributes of an unknown one."""
         names = set(child.attributes)
         if child.children or not names - {"name"}:
             return None
@@ -150,13 +150,13 @@ class _Search(NamedTuple):
 def misplaced(
     number: int, parent: Element, tag: str, vocabulary: Vocabulary
 ) -> Slip | None:
-    """Return where a child belongs that its parent does not know; None for nowhere.
+    """Return the right place of a child that its parent does not know; None for none.
 
     Args:
-        number: which child.
-        parent: the element that it is in.
-        tag: what the parent is, or was meant to be.
-        vocabulary: the names of the format.
+        number: number of the child.
+        parent: element that contains it.
+        tag: tag of the parent, or the intended one.
+        vocabulary: names of the format.
     """
     child = parent.children[number]
     parents = vocabulary.parents(child.tag)
@@ -175,7 +175,7 @@ def _joint_of(child: Element, parent: Element) -> Element | None:
     if (child.tag, parent.tag) != ("origin", "link") or parent.parent is None:
         return None
     if not (child.get("xyz") or "").strip("0. "):
-        # A part that is only turned is most often a shape.
+        # A part that is only rotated is most often a shape.
         return None
     joints = [
         joint
@@ -190,7 +190,7 @@ def _joint_of(child: Element, parent: Element) -> Element | None:
 def _target(number: int, parent: Element, vocabulary: Vocabulary) -> Element | None:
     """Find the element in which a misplaced child would count.
 
-    One around it comes first, then the nearest one before it, then one after it.
+    An enclosing element comes first, then the nearest earlier one, then a later one.
     """
     tag, around = parent.children[number].tag, parent.parent
     for _ in range(_FAR):
