@@ -1,4 +1,4 @@
-"""Links that are not where their joint is, in a model whose other links are."""
+"""Links away from their joints, in a model whose other links are at theirs."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ _FEWEST = 2
 def warn_of_links_away_from_joints(
     scope: Scope, ends: Sequence[JoinedLinks], findings: ModelFindings
 ) -> None:
-    """Warn of a link without a pose, or with one from the joint of another link.
+    """Warn of a link without a pose, or with one from another link's joint.
 
-    ROS has the link where its joint is, and Gazebo where its pose says.
+    ROS places the link at its joint, Gazebo at its pose.
     """
     pairs = [(scope.frames[end.child], end.joint) for end in ends]
     own = sum(_base(link) == joint.name for link, joint in pairs)
@@ -51,7 +51,7 @@ def warn_of_links_away_from_joints(
 
 
 def _pose(link: Frame) -> Element | None:
-    """Return the pose of a link where it says more than nothing."""
+    """Return the pose of a link; None without one or with an empty one."""
     pose = link.element.find("pose")
     if pose is None or not (trimmed(pose.text) or pose.attributes):
         return None
@@ -59,6 +59,6 @@ def _pose(link: Frame) -> Element | None:
 
 
 def _base(link: Frame) -> str:
-    """Return the frame that the pose of a link counts from by its words."""
+    """Return the frame that the pose of a link is written to be relative to."""
     pose = link.element.find("pose")
     return "" if pose is None else trimmed(pose.get("relative_to") or "")

@@ -1,7 +1,7 @@
 """Check every element that libsdformat knows: attributes, values, unknown names.
 
-libsdformat reads the whole file by a table before it looks at what it means; a wrong
-number in a sensor refuses the robot, an unknown element is only lost.
+libsdformat reads the whole file by a table before it interprets it. So a wrong number
+in a sensor makes it refuse the robot, while it only drops an unknown element.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _PLAIN = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.IGNORECASE)
 
 
 _OF_WORLD = ("sun", "ground_plane")
-"""Models that worlds of Gazebo include, and robots do not."""
+"""Models that Gazebo's worlds include, and robots do not."""
 
 
 def check_elements(model: Element, version: Version, findings: ModelFindings) -> None:
@@ -46,8 +46,8 @@ def check_elements(model: Element, version: Version, findings: ModelFindings) ->
 
     Args:
         model: the <model>.
-        version: that of the file; older ones have a few other names.
-        findings: where the problems go.
+        version: version of the file; older ones have a few other names.
+        findings: receives the problems.
     """
     _ElementChecker(version, findings).check(model)
 
@@ -83,7 +83,7 @@ class _ElementChecker:
     def _check_attributes(
         self, element: Element, known: ElementType, quiet: bool
     ) -> bool:
-        """Check the attributes; tells whether they say what the text should say."""
+        """Check the attributes; return whether they hold the values of the text."""
         unknown: list[str] = []
         for name, text in element.attributes.items():
             wanted = known.attributes.get(name)
@@ -127,7 +127,7 @@ class _ElementChecker:
     def _note_default(
         self, element: Element, shown: str, text: str, wanted: Values
     ) -> None:
-        """Note a word that is taken for the first of those that are known."""
+        """Note a word that libsdformat replaces by the first known one."""
         near = _unlike(trimmed(text), wanted)
         if wanted.lenient and trimmed(text) and near:
             self._findings.remark(
@@ -200,7 +200,7 @@ class _ElementChecker:
         self._note_default(element, shown, text, wanted)
 
     def _check_loose_text(self, element: Element) -> None:
-        """Warn of a text that belongs into its own element."""
+        """Warn of a text that belongs in an element of that name."""
         if element.tag == "script" or (
             element.tag == "geometry" and not element.children
         ):
@@ -272,10 +272,10 @@ class _ElementChecker:
 
 
 def _check_value(text: str, wanted: Values) -> bool:
-    """Check a text that is not empty; tells whether ROS ignores a part of it.
+    """Check a text that is not empty; return whether ROS ignores a part of it.
 
     Raises:
-        BadValue: libsdformat does not take it.
+        BadValue: libsdformat refuses the text.
     """
     text = trimmed(text)
     if not text:
@@ -311,7 +311,7 @@ def _check_content(element: Element, text: str, wanted: Values) -> bool:
 
 
 def _without_units(element: Element, text: str, wanted: Values) -> BadValue | None:
-    """Say what is wrong with numbers that have units; None when they have none."""
+    """Explain numbers with units; None when there are none."""
     plain = without_units(text, degrees=_in_degrees(element))
     if wanted.kind in ("string", "") or plain == text:
         return None
@@ -324,7 +324,7 @@ def _without_units(element: Element, text: str, wanted: Values) -> BadValue | No
 
 
 def _with_numbers(element: Element, text: str, wanted: Values) -> str:
-    """Return a text whose numbers are read as a whole."""
+    """Return a text whose numbers read as a whole."""
     better = re.sub(r"(?<=\d),(?=\d)", ".", text)
     better = without_units(better, degrees=_in_degrees(element))
     better = re.sub(r"(?<=[\d.])(?![eE][-+]?\d)[^\d\s.,+-]+", "", better)
@@ -335,11 +335,11 @@ def _with_numbers(element: Element, text: str, wanted: Values) -> str:
 
 
 def value_fault(element: Element, wanted: Values) -> BadValue | None:
-    """Return why libsdformat does not take the text of an element, or reads a part.
+    """Return why libsdformat refuses the text of an element, or ignores a part.
 
     Args:
-        element: any, also in the <gazebo> of a URDF.
-        wanted: what its text may be.
+        element: the element, also in the <gazebo> of a URDF.
+        wanted: valid values of its text.
     """
     text = trimmed(element.text)
     try:
@@ -380,7 +380,7 @@ def _check_word(text: str, wanted: Values) -> None:
 
 
 def _unlike(text: str, wanted: Values) -> str:
-    """Return which words are known or near where a text is none of them; else ""."""
+    """Return the known or similar words for an unknown text; otherwise ""."""
     word = text.lower() if wanted.any_case else text
     if not wanted.words or word in wanted.words:
         return ""

@@ -17,17 +17,17 @@ _WORDS = re.compile(r"(\w+)(?:([=~?])(.+))?")
 
 
 class Values(NamedTuple):
-    """What the text of an element or an attribute may be.
+    """The valid values of an element's text or of an attribute.
 
     Attributes:
         kind: "string", "number", "int", "uint", "boolean", "vector2", "vector3",
             "color" or "pose"; "" for an element without text.
-        required: whether it must not be empty.
-        low: the least number.
-        high: the greatest number.
-        words: the only words that are taken; empty for any.
+        required: whether the value must not be empty.
+        low: minimum of numbers.
+        high: maximum of numbers.
+        words: valid words; empty for any.
         any_case: whether capitals of these words do not count.
-        lenient: whether another word is taken for the first one.
+        lenient: whether the first word replaces an unknown one.
     """
 
     kind: str = ""
@@ -45,10 +45,10 @@ class ElementType:
 
     Attributes:
         name: its tag.
-        text: what its text may be.
-        attributes: name → what the value may be.
-        children: tag → element that may be in it.
-        open: whether anything may be in it.
+        text: valid values of its text.
+        attributes: name → valid values.
+        children: tag → element that it may contain.
+        open: whether it may contain anything.
     """
 
     name: str
@@ -60,7 +60,7 @@ class ElementType:
 
 @cache
 def model_type() -> ElementType:
-    """Return what may be in a <model>."""
+    """Return the type of a <model>, with its valid content."""
     blocks: dict[str, ElementType] = {}
     users: list[tuple[ElementType, str, str]] = []
     stack: list[ElementType] = []
@@ -125,7 +125,7 @@ def _values(text: str, required: bool) -> Values:
 
 
 def meant_word(text: str, wanted: Values) -> str | None:
-    """Return which of the known words was meant by another one, or None."""
+    """Return the known word that another one stands for, or None."""
     plain = {_plain(word): word for word in wanted.words}
     for word in (text, text.strip().removesuffix("_sensor")):
         if _plain(word) in plain:

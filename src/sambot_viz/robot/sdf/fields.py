@@ -1,7 +1,7 @@
-"""Values of elements for the readers: what is missing or wrong gives the default.
+"""Values of elements for the readers; a missing or wrong value gives the default.
 
-What is wrong has been reported by `check_elements`. A number that cannot be shown is
-replaced here, with a warning.
+`check_elements` has reported wrong values. This module replaces a number that cannot be
+shown, with a warning.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from sambot_viz.robot.xml.element import Element
 
 
 def text_in(parent: Element, tag: str) -> str:
-    """Return the text of an element in another, "" when it is not there."""
+    """Return the text of an element in another; "" if it is missing."""
     element = parent.find(tag)
     return "" if element is None else trimmed(element.text)
 
@@ -76,9 +76,9 @@ def colour_in(parent: Element, tag: str, default: Rgba) -> Rgba:
 
 
 def pose_of(owner: Element, findings: ModelFindings) -> Matrix:
-    """Return the pose that an element says, T_base_owner (4, 4), whatever its base is.
+    """Return an element's pose as written, T_base_owner (4, 4), for any base.
 
-    A quaternion whose length is not 1 gets it, with a warning.
+    A quaternion of another length than 1 is normalised, with a warning.
     """
     element = owner.find("pose")
     if element is None:
@@ -102,7 +102,7 @@ def pose_of(owner: Element, findings: ModelFindings) -> Matrix:
 def _check_degrees(pose: PoseText, element: Element, findings: ModelFindings) -> None:
     """Report round angles of more than a turn, which are meant as degrees.
 
-    A guess from one clue is a remark; as usual degrees they are two.
+    Round angles alone give a remark; angles that are usual in degrees give a warning.
     """
     angles = pose.numbers[3:6] if len(pose.numbers) == 6 else ()
     if not any(abs(angle) > 2 * math.pi + 1e-3 for angle in angles):
@@ -120,7 +120,7 @@ def _check_degrees(pose: PoseText, element: Element, findings: ModelFindings) ->
 
 
 def _check_radians(pose: PoseText, element: Element, findings: ModelFindings) -> None:
-    """Warn of parts of pi that are said to be degrees."""
+    """Warn of fractions of pi that are declared as degrees."""
     angles = pose.numbers[3:6] if len(pose.numbers) == 6 else ()
     for angle in map(math.degrees, angles):
         parts = angle / (math.pi / 4)
@@ -136,7 +136,7 @@ def _check_radians(pose: PoseText, element: Element, findings: ModelFindings) ->
 
 
 _PARTS = 8
-"""So many eighths of a turn are looked for."""
+"""Largest angle that is checked, in eighths of a turn."""
 
 
 def _with_degrees(pose: Element) -> str:
@@ -147,7 +147,7 @@ def _with_degrees(pose: Element) -> str:
         return f'<pose{kept} degrees="true">'
     if not others:
         return '<pose degrees="true">'
-    # What a macro has made of the attributes is not what is written there.
+    # Attributes that come from a macro differ from those in the file.
     return f'degrees="true" into <pose>, beside {" and ".join(others)}'
 
 

@@ -1,4 +1,4 @@
-"""Frames whose poses wait for each other, which ROS refuses."""
+"""Frames whose poses depend on each other in a ring, which ROS refuses."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sambot_viz.robot.xml.element import Element
 
 
 def report_cycles(frames: Sequence[Frame], findings: ModelFindings) -> None:
-    """Report each ring of frames once and take it apart, so that poses end."""
+    """Report each ring of frames once, and break it so that all poses are defined."""
     for ring in _rings(frames, lambda frame: frame.base):
         _report(ring, findings)
         ring[0].base = None
@@ -48,7 +48,7 @@ def _rings(
 
 
 def _report(ring: list[Frame], findings: ModelFindings) -> None:
-    """Report a ring at the joint that begins it, else at its first frame."""
+    """Report a ring at the joint that starts it, otherwise at its first frame."""
     joint = next((f for f in ring if f.kind == "joint" and _is_implicit(f)), None)
     if joint is not None and len(ring) == 2:
         _report_joint(joint, findings)
@@ -75,7 +75,7 @@ def _report(ring: list[Frame], findings: ModelFindings) -> None:
 
 
 def _holder(link: Frame) -> str | None:
-    """Return the joint that holds a link, where the joint does not count from it."""
+    """Return the joint that holds a link, unless the joint is relative to the link."""
     model = link.element.parent
     for joint in model.find_all("joint") if model is not None else ():
         pose = joint.find("pose")
@@ -86,7 +86,7 @@ def _holder(link: Frame) -> str | None:
 
 
 def _is_implicit(joint: Frame) -> bool:
-    """Return whether a joint counts from its child only because it names no frame."""
+    """Return whether a joint is relative to its child only for lack of another name."""
     pose = joint.element.find("pose")
     return pose is None or not (pose.get("relative_to") or pose.get("frame"))
 

@@ -1,4 +1,4 @@
-"""What is in a model only for Gazebo: one note for each kind."""
+"""Notes, one for each kind, on the parts of a model that only Gazebo uses."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _KINDS = {
     "audio_sink": "microphones",
     "ros2_control": "parts of ros2_control",
 }
-"""Tag → what several of them are called."""
+"""Tag → plural for messages."""
 
 _SETTINGS = frozenset(
     "static self_collide allow_auto_disable enable_wind gravity kinematic "
@@ -26,28 +26,28 @@ _SETTINGS = frozenset(
     "cast_shadows visibility_flags meta fluid_added_mass "
     "transparency lighting".split()
 )
-"""Elements that say how Gazebo simulates or draws, and nothing else."""
+"""Elements that only control how Gazebo simulates or draws."""
 
 _MOST_NAMES = 4
 _NOTHING_TO_DO = "nothing has to be done"
 
 
 def is_for_gazebo(element: Element) -> bool:
-    """Return whether ROS never looks at an element and what is in it."""
+    """Return whether ROS ignores an element with all its content."""
     return is_tag_for_gazebo(element.tag)
 
 
 def is_tag_for_gazebo(tag: str) -> bool:
-    """Return whether ROS never looks at elements with that tag."""
+    """Return whether ROS ignores elements with that tag."""
     return tag in _KINDS or tag in ("surface", "physics")
 
 
 def note_gazebo_only(model: Element, findings: ModelFindings) -> None:
-    """Note what has no effect on the picture.
+    """Note elements without effect on the picture.
 
     Args:
         model: the <model>.
-        findings: where the notes go.
+        findings: receives the notes.
     """
     found: dict[str, list[Element]] = {}
     settings: dict[str, Element] = {}
@@ -55,7 +55,7 @@ def note_gazebo_only(model: Element, findings: ModelFindings) -> None:
     while stack:
         element = stack.pop()
         if element.tag == "sensor" and element.parent is model:
-            # That is its own problem.
+            # That is a separate problem.
             continue
         if element.tag in _KINDS:
             found.setdefault(element.tag, []).append(element)

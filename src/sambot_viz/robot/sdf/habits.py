@@ -1,6 +1,6 @@
-"""What people write in SDF as they know it from URDF, where values are attributes.
+"""URDF's notation in SDF files: values as attributes.
 
-ROS ignores it without a message. What each is in SDF is told in full.
+ROS ignores it without a message. Each problem gives the full notation of SDF.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from sambot_viz.robot.xml.element import Element
 
 @dataclass(frozen=True, slots=True)
 class Habit:
-    """What ROS does with it, and what to write.
+    """The effect in ROS, and the remedy.
 
     Attributes:
-        message: the cause and what comes of it.
-        hint: the same as SDF has it.
+        message: cause and effect.
+        hint: SDF's notation of the same.
         refused: whether ROS refuses the model for it.
     """
 
@@ -40,23 +40,23 @@ _VALUES = {
     "inertia": (("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), "they become 1 or 0"),
     "mimic": (("multiplier", "offset"), "they become 1 and 0"),
 }
-"""Element of URDF → its attributes, and what SDF takes instead."""
+"""Element of URDF → its attributes, and SDF's notation."""
 
 
 def effect_of_default(tag: str) -> str:
-    """Return what becomes of an element without values, or ""."""
+    """Return the effect of an element without values, or ""."""
     if tag == "material":
         return "ROS shows it black"
     return _VALUES.get({"inertial": "mass", "axis2": "axis"}.get(tag, tag), ("", ""))[1]
 
 
 def says_more_inside(element: Element) -> bool:
-    """Tell whether the finding about an element inside says what is wrong here too."""
+    """Return whether the finding about an inner element also covers this one."""
     return element.tag == "material" and element.find("color") is not None
 
 
 def attributes_of_urdf(element: Element, names: list[str]) -> Habit | None:
-    """Tell what the attributes of an element mean in URDF, or None.
+    """Explain the URDF meaning of an element's attributes, or return None.
 
     Args:
         element: an element of SDF.
@@ -96,7 +96,7 @@ _PLACES = (("x", "y", "z"), ("roll", "pitch", "yaw"))
 
 
 def _pose(element: Element, names: list[str]) -> Habit | None:
-    """Tell what a <pose> says whose numbers are in attributes, or None."""
+    """Explain a <pose> with its numbers in attributes, or return None."""
     triples = [
         element.get(whole) or " ".join(element.get(name) or "0" for name in parts)
         for whole, parts in zip(("xyz", "rpy"), _PLACES, strict=True)
@@ -118,7 +118,7 @@ def _pose(element: Element, names: list[str]) -> Habit | None:
 
 
 def _as_sdf(element: Element, names: list[str]) -> str:
-    """Write attributes of URDF as the elements that SDF has for them."""
+    """Write attributes of URDF as SDF's elements."""
     renamed = {"filename": "uri"}
     if element.tag == "mass":
         return f"<mass>{element.get('value')}</mass>"
@@ -144,7 +144,7 @@ def _unnamed_material(element: Element) -> Habit:
 
 
 def element_of_urdf(element: Element) -> Habit | None:
-    """Tell what an element that SDF does not know means in URDF, or None."""
+    """Explain the URDF meaning of an element unknown to SDF, or return None."""
     parent = element.parent
     if parent is None:
         return None

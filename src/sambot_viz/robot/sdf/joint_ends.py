@@ -120,7 +120,7 @@ def _refuse_world(
 
 
 def _with_poses(joint: Frame, scope: Scope) -> str:
-    """Name what counts from a joint that is to be deleted."""
+    """Name the elements relative to a joint that should be deleted."""
     named = [
         f' and {attribute}="{joint.name}" of the <pose> in {described(pose)} (line '
         f"{pose.line_of(attribute)})"
@@ -152,7 +152,7 @@ def _refuse_frame(
     named = scope.find(name)
     frame, seen = named, set[Frame]()
     while frame is not None and frame.kind != "link" and frame not in seen:
-        # Frames may be attached to each other, which is reported elsewhere.
+        # Frames may be attached in a ring, which another rule reports.
         seen.add(frame)
         frame = frame.attached
     better = frame.name if frame is not None and frame.kind == "link" else ""
@@ -160,7 +160,7 @@ def _refuse_frame(
         "sdf-joint-to-frame",
         f"joint {joint.name} has {name} as its {tag}, which is not a link; SDF allows "
         f"it, but {REFUSED}",
-        # It may be meant as a link, or be at another place than its link.
+        # It may be intended as a link, or be away from its link.
         _as_link(joint, named)
         if named is not None and better in _ends_of(joint)
         else f"write <{tag}>{better or '…'}</{tag}>",
@@ -173,7 +173,7 @@ def _ends_of(joint: Frame) -> tuple[str, str]:
 
 
 def _as_link(joint: Frame, frame: Frame) -> str:
-    """Say how a frame becomes a link: the joint is between it and its own link."""
+    """Explain how a frame becomes a link: the joint is between it and its own link."""
     pose = frame.element.find("pose")
     if pose is not None and trimmed(pose.get("relative_to") or ""):
         return (

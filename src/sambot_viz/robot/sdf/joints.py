@@ -1,4 +1,4 @@
-"""Read joints as sdformat_urdf does; what ROS drops of them is said."""
+"""Read joints as sdformat_urdf does, and report the parts that ROS drops."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ TYPES: dict[str, JointType] = {
     "gearbox": "floating",
     "screw": "floating",
 }
-"""Joint type of SDF → what ROS makes of it."""
+"""Joint type of SDF → ROS's type for it."""
 
 _LOST = ("spring_reference", "spring_stiffness", "dissipation", "stiffness")
 _Z: Vector3 = (0.0, 0.0, 1.0)
@@ -42,12 +42,12 @@ _Z: Vector3 = (0.0, 0.0, 1.0)
 
 @dataclass(frozen=True, slots=True)
 class JointMotion:
-    """How a joint moves.
+    """The motion of a joint.
 
     Attributes:
-        type: the type of the joint in ROS.
+        type: type of the joint in ROS.
         axis: unit vector in the joint frame.
-        limit: None for joints that have none.
+        limit: None for joints without limits.
         dynamics: None for joints that do not move.
     """
 
@@ -69,7 +69,7 @@ class MotionReader:
         self._joints = {f.name: f.element for f in frames.scope.of_kind("joint")}
 
     def read(self, joint: Frame) -> JointMotion:
-        """Read one joint and report what is wrong with it or lost."""
+        """Read one joint, and report its faults and lost parts."""
         element = joint.element
         kind = self._type(joint)
         axes = {
@@ -116,7 +116,7 @@ class MotionReader:
         return "fixed"
 
     def _axis(self, axis: Element, joint: Frame) -> Vector3:
-        """Return the direction of an axis in the joint frame, of length 1."""
+        """Return the direction of an axis in the joint frame, as a unit vector."""
         direction = np.array(vector_in(axis, "xyz", _Z))
         length = math.hypot(*direction)
         if length == 0.0:
@@ -133,7 +133,7 @@ class MotionReader:
         name = self._version.expressed_in(axis)
         at = axis.find("xyz") or axis
         if at is axis and name:
-            # Bringing the file to a newer version makes an empty <xyz> for the frame.
+            # The conversion to a newer version creates an empty <xyz> for the frame.
             self._findings.reject(
                 "sdf-value",
                 f"<axis> of joint {joint.name} has no <xyz>, which a file of this "
@@ -177,7 +177,7 @@ class MotionReader:
     ) -> None:
         as_text = at.tag == "limit" and loose_text(at) and not at.children
         if as_text or at.attributes or joint.element.find("limit") is not None:
-            # Another finding says how to write the limits that are meant.
+            # Another finding gives the notation of the intended limits.
             return
         no_end = limit.ends == (None, None)
         given = [e for e in map(at.find, ("lower", "upper")) if e is not None]
@@ -215,7 +215,7 @@ class MotionReader:
         )
 
     def _report_lost(self, joint: Frame, kind: JointType) -> None:
-        """Report what a joint says and ROS does not read; a wrong mimic refuses."""
+        """Report parts of a joint that ROS ignores; it refuses a wrong mimic."""
         lost: dict[str, Element] = {}
         axes = [joint.element.find("axis"), joint.element.find("axis2")]
         for axis in (axis for axis in axes if axis is not None):

@@ -23,12 +23,12 @@ from sambot_viz.robot.xml.element import Element
 
 _BLACK: Rgba = (0.0, 0.0, 0.0, 1.0)
 _WITHOUT_COLORS = (".stl", ".stlb")
-"""Endings of mesh files that have no materials."""
+"""Endings of mesh files without materials."""
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 class SdfLinkReader:
-    """Reads one <link> after the other."""
+    """Reads <link> elements one by one."""
 
     def __init__(
         self, frames: FramePoses, findings: ModelFindings, find_mesh: FindMesh
@@ -66,7 +66,7 @@ class SdfLinkReader:
         name = trimmed(element.get("name") or "")
         material = None
         if element.tag == "visual":
-            # Its own materials win, in RViz and here.
+            # The file's own materials win, in RViz and here.
             has_colors = isinstance(
                 geometry, MeshFile
             ) and not geometry.filename.lower().endswith(_WITHOUT_COLORS)
@@ -85,9 +85,9 @@ class SdfLinkReader:
         """Return the material as ROS mixes it; None is RViz's red.
 
         Args:
-            visual: has the <material>.
-            name: of the material.
-            has_colors: the shape is a mesh that may have colours of its file.
+            visual: the visual with the <material>.
+            name: name of the material.
+            has_colors: whether the shape is a mesh that may have colours in its file.
         """
         element = visual.find("material")
         if element is None:
@@ -129,7 +129,7 @@ class SdfLinkReader:
         if script is not None and not text_in(script, "uri"):
             return
         if loose_text(material):
-            # The finding about the text says what to write.
+            # The finding about the text gives the remedy.
             return
         self._findings.warn(
             "material-without-colour",
@@ -141,7 +141,7 @@ class SdfLinkReader:
         )
 
     def _inertial(self, link: Frame, T_holder_model: Matrix) -> Inertial:
-        """Read the inertia; every link of SDF has one, of 1 kg where it says none."""
+        """Read the inertia; every SDF link has one, by default of 1 kg."""
         T_model_link = self._frames.T_model_frame(link)
         element = link.element.find("inertial")
         if element is None:
@@ -175,7 +175,7 @@ class SdfLinkReader:
 
 
 def _why_invalid(mass: float, moments: list[float]) -> str:
-    """Say why libsdformat takes no body of this mass and inertia, or ""."""
+    """Explain why libsdformat refuses this mass and inertia; "" if it does not."""
     if math.isnan(mass) or any(math.isnan(moment) for moment in moments):
         return 'it contains "nan"'
     if mass < 0:

@@ -1,6 +1,6 @@
-"""Values that are text directly in an element, where SDF has an element for each.
+"""Values written as text directly in an element, where SDF has an element for each.
 
-libsdformat ignores such a text without a message, and takes its defaults.
+libsdformat ignores such a text without a message, and uses its defaults.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _LAYOUTS = {
     "inertia": ("ixx ixy ixz iyy iyz izz", "ixx iyy izz"),
     "inertial": ("mass",),
 }
-"""Tag → which element each number of the text belongs into."""
+"""Tag → element for each number of the text."""
 
 _DELETE = "delete it, or write it into the element it belongs to"
 _CHILDREN = {
@@ -49,20 +49,20 @@ _CHILDREN = {
     "material": "diffuse",
     "geometry": "box",
 }
-"""Tag → the element that the text is most likely meant for."""
+"""Tag → element that the text is most likely meant for."""
 
 
 def loose_text(element: Element) -> str:
-    """Return the text directly in an element that should only hold elements."""
+    """Return the text directly in an element that should only contain elements."""
     text = " ".join(trimmed(element.text).split())
     return text if len(text) <= 60 else f"{text[:60]}…"
 
 
 def text_not_read(element: Element) -> Habit | None:
-    """Tell what a text directly in an element is in SDF; None when there is none.
+    """Explain a text directly in an element; None when there is none.
 
     Args:
-        element: an element of SDF that holds no text of its own.
+        element: an element of SDF that should have no text.
     """
     text = loose_text(element)
     if not text:
@@ -87,7 +87,7 @@ def _hint(element: Element, text: str) -> str:
 
 
 def _inside(tag: str, text: str) -> str | None:
-    """Write a text as the elements that SDF has for it, or None when that is unsure."""
+    """Write a text as SDF's elements, or return None when the meaning is unsure."""
     if tag == "material":
         return _colour(text)
     if tag == "geometry":
@@ -117,9 +117,9 @@ def _as_elements(names: list[str], numbers: list[str]) -> str:
 
 
 def _readings(text: str) -> Iterator[list[str]]:
-    """Yield the numbers of a text: with commas between them, then with decimal commas.
+    """Yield the numbers of a text: with separating commas, then with decimal commas.
 
-    A text with something else in it gives none.
+    A text with any other content yields nothing.
     """
     for other in dict.fromkeys((text, re.sub(r"(?<=\d),(?=\d)", ".", text))):
         numbers = re.split(r"[\s,;]+", without_units(other).strip(" ,;"))

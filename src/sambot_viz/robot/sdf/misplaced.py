@@ -1,4 +1,4 @@
-"""Elements of SDF in an element that does not know them, and where they belong."""
+"""Elements whose parent does not know them, and their right places in SDF."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ _SHAPES = ("box", "cylinder", "sphere", "mesh")
 
 
 def may_be_slip(child: Element) -> bool:
-    """Return whether no other rule says what an unknown element was meant to be."""
+    """Return whether no other rule explains an unknown element."""
     if ":" in child.tag or is_for_gazebo(child) or child.tag == "include":
         return False
     return element_of_urdf(child) is None
 
 
 def misplaced_in(number: int, parent: Element, known: ElementType) -> Slip | None:
-    """Return where a child belongs that its parent does not know.
+    """Return the right place for a child that its parent does not know.
 
     Args:
-        number: which child.
-        parent: the element that it is in.
-        known: what the parent is, or was meant to be.
+        number: number of the child.
+        parent: element that contains it.
+        known: type of the parent, or the intended one.
 
     Returns:
-        None where no place for it is there and no element around it would make one.
+        None where no place for it exists and no element around it would make one.
     """
     if known.name not in sdf_vocabulary().words:
         return None
@@ -43,7 +43,7 @@ def misplaced_in(number: int, parent: Element, known: ElementType) -> Slip | Non
 
 
 def _solid_around(radius: Element, geometry: Element) -> tuple[str, ...]:
-    """Return the shape that is missing around a <radius>; others have one parent."""
+    """Return the missing shape around a <radius>; other elements have one parent."""
     if (geometry.tag, radius.tag) != ("geometry", "radius"):
         return ()
     if any(geometry.find(shape) for shape in _SHAPES):
@@ -52,7 +52,7 @@ def _solid_around(radius: Element, geometry: Element) -> tuple[str, ...]:
 
 
 def shares(first: Slip, slip: Slip) -> Slip | None:
-    """Return the first slip with another one that its new element takes, or None."""
+    """Return the first slip, extended by one that fits its new element, or None."""
     inside = sdf_vocabulary().children(first.around[-1])
     there = {first.element.tag, *(element.tag for element in first.behind)}
     if slip.element.tag not in inside or slip.element.tag in there or slip.target:
@@ -61,7 +61,7 @@ def shares(first: Slip, slip: Slip) -> Slip | None:
 
 
 def beside_model(document: Element, model: Element) -> Iterator[Slip]:
-    """Yield the links, joints and frames beside a <model>; those behind it at once."""
+    """Yield the links, joints and frames beside a <model>; later ones as one slip."""
     at = document.children.index(model)
     behind = document.children[at + 1 :]
     together = [child for child in behind if child.tag in _OF_MODEL]
@@ -75,7 +75,7 @@ def beside_model(document: Element, model: Element) -> Iterator[Slip]:
 
 
 def advised_place(element: Element) -> str | None:
-    """Return what to do with an element that cannot be put right by itself, or None."""
+    """Return advice for an element without an automatic fix, or None."""
     parent, tag = element.parent, element.tag
     if parent is None:
         return None

@@ -1,4 +1,4 @@
-"""Elements without a value that they should say: SDF takes a default in its place."""
+"""Elements without a necessary value, for which SDF uses a default."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _DEFAULTS = {
     ("inertia", "iyy"): "1",
     ("inertia", "izz"): "1",
 }
-"""Element and what is missing in it → what SDF takes."""
+"""Element and its missing part → SDF's default."""
 
 _EXAMPLES = {
     "size": "1 1 1",
@@ -39,30 +39,30 @@ _WHEEL = re.compile("(wheel|whl|t[iy]re)(?!.*(cast|steer|swivel))")
 
 
 def _example(element: Element, child: str) -> str:
-    """Return a value as it is usual there."""
+    """Return a usual value."""
     joint = element.parent
     if element.tag == "axis" and joint and _WHEEL.search(joint.get("name") or ""):
-        # About z it would spin like a top.
+        # About z, a wheel would spin like a top.
         return "0 1 0"
     return _EXAMPLES.get(child, "1")
 
 
 def is_needed(element: Element) -> bool:
-    """Return whether an element must not be left out."""
+    """Return whether an element is required."""
     return element.parent is not None and (element.parent.tag, element.tag) in _DEFAULTS
 
 
 def check_left_out(
     element: Element, known: ElementType, findings: ModelFindings
 ) -> None:
-    """Warn of a value that is not there and would be guessed wrong.
+    """Warn of a missing value whose default is wrong here.
 
-    Nothing is said where the value is there in another form, which is reported.
+    If the value is there in another form, another rule reports it.
 
     Args:
         element: an element of SDF.
-        known: what may be in it.
-        findings: where the warning goes.
+        known: its valid content.
+        findings: receives the warning.
     """
     wanted = [child for tag, child in _DEFAULTS if tag == element.tag]
     missing = [child for child in wanted if element.find(child) is None]

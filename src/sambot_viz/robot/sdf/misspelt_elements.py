@@ -1,4 +1,4 @@
-"""Misspelt elements and attributes of SDF, by the table of what it knows."""
+"""Misspelt elements and attributes of SDF, found by the table of all names."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xml.element import Element
 
 _SYNONYMS = {("pose", "frame"): "relative_to"}
-"""Element and attribute → what the attribute is called since version 1.7."""
+"""Element and attribute → name of the attribute since version 1.7."""
 
 
 def sdf_slips(document: Element) -> list[Slip]:
-    """Return the names in an SDF file that were meant to be others, in document order.
+    """Return the misspelt names in an SDF file, in document order.
 
-    Names that come from URDF, and what only Gazebo reads, are left to other rules.
+    Other rules cover names from URDF, and elements that only Gazebo reads.
 
     Args:
         document: its root element.
@@ -115,7 +115,7 @@ def _attributes(element: Element, known: ElementType) -> Iterator[Slip]:
 
 
 def _meant(child: Element, known: ElementType, free: list[str]) -> str | None:
-    """Return the element that was meant by one that SDF does not know."""
+    """Return the intended element for one that SDF does not know."""
     synonym = sdf_vocabulary().synonyms.get(f"{known.name}.{child.tag.lower()}")
     right = synonym if synonym in free else meant(child.tag, free)
     return None if right is None or child.find(right) is not None else right

@@ -1,9 +1,9 @@
-"""What files of older versions of SDF say in other words.
+"""Differences in files of older versions of SDF.
 
-libsdformat brings a file to the newest version before it reads it. For a robot these
-are few rules: the attribute ``frame`` of a pose (until 1.6), axes in the frame of the
-model (always until 1.4, by <use_parent_model_frame> in 1.5 and 1.6), names that may be
-used twice (until 1.6) and ``::`` in a name (until 1.7).
+libsdformat converts a file to the newest version before it reads it. For a robot, a few
+rules suffice: the attribute ``frame`` of a pose (until 1.6), axes in the frame of the
+model (always until 1.4, by <use_parent_model_frame> in 1.5 and 1.6), repeated names
+(until 1.6) and ``::`` in a name (until 1.7).
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ class Version:
 
     @property
     def may_rename(self) -> bool:
-        """True where a name that is used twice gets an ending instead of a refusal."""
+        """Return whether a repeated name gets an ending instead of a refusal."""
         return self.minor < 7
 
     @property
     def may_have_colons(self) -> bool:
-        """True where ``::`` may be in a name."""
+        """Return whether a name may contain ``::``."""
         return self.minor < 8
 
     def relative_to(self, pose: Element) -> str:
-        """Return the name of the frame a <pose> counts from, "" for the usual one."""
+        """Return the frame that a <pose> is relative to; "" for the default."""
         frame = pose.get("frame") if self.minor < 7 else None
         return trimmed(frame or pose.get("relative_to") or "")
 
     def expressed_in(self, axis: Element) -> str:
-        """Return the name of the frame of an <axis>, "" for that of its joint."""
+        """Return the name of the frame of an <axis>; "" for that of its joint."""
         if self.minor < 5:
             return "__model__"
         in_model = axis.find("use_parent_model_frame") if self.minor < 7 else None
@@ -49,11 +49,11 @@ class Version:
         return trimmed(xyz.get("expressed_in") or "") if xyz is not None else ""
 
     def knows(self, element: Element, attribute: str) -> bool:
-        """Return whether an attribute is known, though the newest version has none."""
+        """Return whether this version has an attribute that the newest one lacks."""
         return self.minor < 7 and element.tag == "pose" and attribute == "frame"
 
     def knows_element(self, element: Element) -> bool:
-        """Return whether an element is known, though the newest version has none."""
+        """Return whether this version has an element that the newest one lacks."""
         return self.minor < 7 and element.tag == "use_parent_model_frame"
 
 

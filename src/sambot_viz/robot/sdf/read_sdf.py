@@ -1,8 +1,8 @@
 """Read an SDF document into links and joints, as sdformat_urdf does.
 
-The frame that has a link's name is where its joint is, not where SDF has the link; the
-shapes are moved, so that the picture is right. What ROS refuses is an error; reading
-goes on to the end, so that all errors are reported together.
+In ROS, the frame with a link's name is at its joint, not at the link's place in SDF.
+The reader moves the shapes, so that the picture is right. Refusals by ROS become
+errors. Reading continues to the end, to report all errors together.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ def read_sdf(
 
     Args:
         document: its root element, <sdf>.
-        written: the root element before xacro, for the macro calls in it.
-        findings: where problems go; `findings.rejected` says whether ROS refuses it.
+        written: root element before xacro, with the macro calls.
+        findings: receives problems; `findings.rejected` is set if ROS refuses it.
         find_mesh: mesh name → file.
 
     Returns:
@@ -75,7 +75,7 @@ def read_sdf(
 def _joint(
     ends: JoinedLinks, motion: JointMotion, frames: FramePoses, parent: Frame
 ) -> Joint:
-    """Put a joint together; its origin counts from where its parent link is in ROS."""
+    """Build a joint; its origin is relative to its parent link's place in ROS."""
     joint = ends.joint
     pose = joint.element.find("pose")
     place = pose.place if pose is not None else None

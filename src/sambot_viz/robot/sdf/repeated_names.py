@@ -1,4 +1,4 @@
-"""Report a name that is used twice; most often a macro is called twice alike."""
+"""Reports repeated names; most often two macro calls are the same."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ def report_repeated(
     written: Element,
     findings: ModelFindings,
 ) -> None:
-    """Report a name that another element has already.
+    """Report a name that another element already has.
 
     Args:
         name: the name.
-        element: the element that has it again.
-        first: the element that has it rightly.
-        written: the root of the document before xacro.
-        findings: where the problem goes.
+        element: element that repeats it.
+        first: element that has it rightly.
+        written: root of the document before xacro.
+        findings: receives the problem.
     """
     what = f"{element.tag} {name}"
     if element.tag != first.tag:
@@ -61,7 +61,7 @@ def report_repeated(
 
 
 def _is_fixed(element: Element, first: Element, written: Element) -> bool:
-    """Return whether the body of a macro has the name without a parameter."""
+    """Return whether a macro's body contains the name without a parameter."""
     return element.place == first.place and any(
         other.place == element.place and "${" not in (other.get("name") or "${")
         for other in written.iter()
@@ -69,7 +69,7 @@ def _is_fixed(element: Element, first: Element, written: Element) -> bool:
 
 
 def _use_of(name: str, link: Element) -> str:
-    """Say where the other element of a name is used: most often by the link."""
+    """Describe the use of the other element's name: most often by the link."""
     pose = link.find("pose")
     if pose is None or pose.get("relative_to") != name:
         return "where it is used"
@@ -79,7 +79,7 @@ def _use_of(name: str, link: Element) -> str:
 def _report_call(
     what: str, call: Place, first: Element, written: Element, findings: ModelFindings
 ) -> None:
-    """Report a macro call that makes again what another call has made."""
+    """Report a macro call that repeats the result of another call."""
     earlier = first.call or first.place
     other = _other_argument(what, _at(call, written), _at(earlier, written))
     findings.add(

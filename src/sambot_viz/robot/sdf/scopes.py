@@ -1,6 +1,6 @@
 """The names of a model: links, joints, frames and nested models, each once.
 
-A nested model has names of its own, which the others write as ``model::name``.
+A nested model has a separate scope; from outside, its names are ``model::name``.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ _KINDS = ("link", "joint", "frame")
 
 @dataclass(slots=True, eq=False)
 class Frame:
-    """A name that poses can count from.
+    """A name that poses can be relative to.
 
     Attributes:
-        name: as the model calls it.
+        name: its name in the model.
         kind: "model", "link", "joint" or "frame".
-        element: where it is written.
-        base: the frame its pose counts from; None for the whole robot, and while it
-            is not known.
-        attached: the frame that a <frame> moves with, and the child of a joint.
+        element: its element.
+        base: the frame that its pose is relative to; None for the whole robot, and
+            while it is not known.
+        attached: the frame that a <frame> moves with, or the child of a joint.
         T_base_frame: its pose in the base (4, 4).
     """
 
@@ -57,7 +57,7 @@ class Scope:
         own: the frame of the model itself.
         frames: name → frame, in the order libsdformat reads them.
         nested: name → names inside that nested model.
-        namesakes: name of a link → a joint or frame that was given the same name.
+        namesakes: name of a link → a joint or frame with the same name.
     """
 
     own: Frame
@@ -110,13 +110,13 @@ def canonical_link(scope: Scope) -> Frame | None:
 def read_scopes(
     model: Element, written: Element, version: Version, findings: ModelFindings
 ) -> Scope:
-    """Read all names of a model and report those that are not allowed.
+    """Read all names of a model, and report those that are not allowed.
 
     Args:
         model: the <model>, after xacro.
-        written: the root of the document before xacro, for the macro calls in it.
-        version: that of the file.
-        findings: where the problems go.
+        written: root of the document before xacro, with the macro calls.
+        version: version of the file.
+        findings: receives the problems.
     """
     reader = _NameReader(written, version, findings)
     reader.check_name(model)
@@ -165,7 +165,7 @@ class _NameReader:
                 self._check_inside(element)
 
     def check_nested(self, scope: Scope) -> None:
-        """Report a nested model that has nothing its frame could move with."""
+        """Report a nested model without any link for its frame to move with."""
         static = text_in(scope.model, "static").lower() in ("true", "1")
         if not static and not scope.nested and not scope.of_kind("link"):
             self._findings.reject(
@@ -176,7 +176,7 @@ class _NameReader:
             )
 
     def leave_out(self, scope: Scope) -> None:
-        """Report a model whose inner models are too deep to be read."""
+        """Report a model whose inner models are nested too deep to read."""
         self._findings.warn(
             "sdf-nested-model",
             f"what is in the models inside {scope.model.get('name')} is not read: "
@@ -186,7 +186,7 @@ class _NameReader:
         )
 
     def _take(self, scope: Scope, element: Element, kind: str) -> Frame | None:
-        """Take the name of an element into a scope; None when it cannot be used."""
+        """Add the name of an element to a scope; None when the name is unusable."""
         name = self.check_name(element)
         if not name:
             return None
@@ -204,7 +204,7 @@ class _NameReader:
         return frame
 
     def _set_apart(self, scope: Scope, frame: Frame, other: Frame) -> None:
-        """Report two kinds of one name; read on as if the one had another name."""
+        """Report two kinds with one name; continue as if one had another name."""
         name = other.name
         kept, renamed = (frame, other) if frame.kind == "link" else (other, frame)
         self._report_repeated(name, renamed.element, kept.element)
@@ -262,7 +262,7 @@ class _NameReader:
                 self._report_repeated(name, element, first)
 
     def _report_repeated(self, name: str, element: Element, first: Element) -> None:
-        """Report a name that is there already; of a macro call only its first name."""
+        """Report a repeated name; of a macro call, only its first name."""
         if element.call is not None and element.call != first.call:
             if element.call in self._repeating:
                 return
@@ -271,7 +271,7 @@ class _NameReader:
 
 
 def _free_name(scope: Scope, element: Element, name: str) -> str:
-    """Return the name with the ending that libsdformat gives to the second of it."""
+    """Return the name with libsdformat's ending for repeated names."""
     ending = f"{name}_{element.tag}"
     numbered = (f"{ending}{n}" for n in range(len(scope.frames) + 1))
     return next(n for n in (ending, *numbered) if n not in scope.frames)

@@ -1,4 +1,4 @@
-"""Colours that people call by name, as they are in the scripts of Gazebo."""
+"""Colours with common names, as in Gazebo's scripts."""
 
 from __future__ import annotations
 

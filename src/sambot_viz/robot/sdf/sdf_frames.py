@@ -1,4 +1,4 @@
-"""Poses of links, joints and frames in the model, each counted from another frame."""
+"""Poses of links, joints and frames in the model, each relative to another frame."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from sambot_viz.robot.xml.element import Element
 
 
 class FramePoses:
-    """Where each frame of a model is.
+    """The place of each frame in a model.
 
-    A frame without a place, because names are wrong or wait for each other, is where
-    the model is: that has been reported, and ROS refuses the model.
+    A frame without a place, because of wrong names or a ring, is at the model's origin:
+    its problem has been reported, and ROS refuses the model.
     """
 
     def __init__(self, scope: Scope, version: Version, findings: ModelFindings) -> None:
-        """Find the base of every frame, and report names and cycles that are wrong."""
+        """Find the base of every frame, and report wrong names and cycles."""
         self.scope = scope
         self._version = version
         self._findings = findings
@@ -43,7 +43,7 @@ class FramePoses:
         path: list[Frame] = []
         here: Frame | None = frame
         while here is not None and here not in self._known:
-            # Frames that wait for each other are where the model is.
+            # Frames in a ring are at the model's origin.
             self._known[here] = np.eye(4)
             path.append(here)
             here = here.base
@@ -68,16 +68,16 @@ class FramePoses:
         return self._named(name, at, attribute, self.scope)
 
     def _connect(self, frame: Frame, scope: Scope) -> None:
-        """Find what the pose of a frame counts from."""
+        """Find the frame that the pose of a frame is relative to."""
         frame.T_base_frame = pose_of(frame.element, self._findings)
         frame.attached = self._attached(frame, scope)
         base = self._base_of_pose(frame.element, scope)
-        # What counts from an unknown frame counts from no other, which could be a ring.
+        # A frame relative to an unknown one has no other base, which could be a ring.
         usual = scope.own if self._names_base(frame.element) else frame.attached
         frame.base = base or usual or scope.own
 
     def _attached(self, frame: Frame, scope: Scope) -> Frame | None:
-        """Return the frame that counts where the pose names none, if it is said."""
+        """Return the default base of a pose without a named frame, if there is one."""
         if frame.kind == "joint":
             return scope.find(text_in(frame.element, "child"))
         name = trimmed(frame.element.get("attached_to") or "")
@@ -103,7 +103,7 @@ class FramePoses:
     ) -> Frame | None:
         found = scope.find(name)
         if found is not None and found.element is at.parent:
-            # A link that counts from its own name means the joint that is called so.
+            # A link relative to its own name means the joint with that name.
             return scope.namesakes.get(name, found)
         if found is not None:
             return found
@@ -120,7 +120,7 @@ class FramePoses:
         return None
 
     def _place_nested(self, scope: Scope) -> None:
-        """Move nested models that are placed by a frame of theirs."""
+        """Move nested models that a frame inside them places."""
         for inner in scope.nested.values():
             name = trimmed(inner.model.get("placement_frame") or "")
             if not name:

@@ -1,4 +1,4 @@
-"""The elements of SDF that ROS reads of a robot, for what is misplaced."""
+"""SDF's elements that ROS reads for a robot, used to find misplaced ones."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from sambot_viz.robot.sdf.gazebo_only import is_tag_for_gazebo
 from sambot_viz.robot.slips.vocabulary import Vocabulary, Word
 
 REPEATED = frozenset({"collision", "frame", "joint", "link", "model", "visual"})
-"""Elements of which more than the first one counts."""
+"""Elements that may be repeated."""
 
 _READ = (
     "model link visual collision inertial inertia geometry box cylinder sphere mesh "
     "material frame joint axis limit dynamics mimic".split()
 )
-"""The elements in which ROS looks for others."""
+"""Elements in which ROS looks for others."""
 
 _ENCLOSED = {
     "mass": "inertial",
@@ -49,7 +49,7 @@ _SYNONYMS = {
 
 @cache
 def types_by_tag() -> dict[str, ElementType]:
-    """Return what ROS reads of a <model>: tag → what may be in such an element."""
+    """Return the parts of a <model> that ROS reads: tag → its valid content."""
     types: dict[str, ElementType] = {}
     stack = [model_type()]
     while stack:

@@ -1,4 +1,4 @@
-"""The one <model> of an SDF file, and what else such files are."""
+"""Finds the one <model> of an SDF file, and reports other content."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _ENTITIES = ("model", "light", "actor")
 def find_model(
     document: Element, findings: ModelFindings
 ) -> tuple[Element, Version] | None:
-    """Return the model of a document and the version it is written in.
+    """Return the model of a document and its version.
 
     Returns:
-        None when there is no such model; that is reported.
+        None when there is no such model; the findings say so.
     """
     version = _version(document, findings)
     models = document.find_all("model")
@@ -48,13 +48,13 @@ def find_model(
 
 
 def _robot_in(parent: Element) -> Element | None:
-    """Return the only model with joints; None where none or several have some."""
+    """Return the only model with joints; None where there is none or several."""
     models = [m for m in parent.find_all("model") if m.find("joint") is not None]
     return models[0] if len(models) == 1 else None
 
 
 def _without_others(document: Element, robot: Element | None) -> str:
-    """Say what to do with the models, lights and actors beside a robot."""
+    """Advise on the models, lights and actors beside a robot."""
     if robot is None:
         return "put each into a file of its own"
     others = [e for e in document.children if e.tag in _ENTITIES and e is not robot]
@@ -115,7 +115,7 @@ def _refuse_without_model(document: Element, findings: ModelFindings) -> None:
 
 
 def _check_rest(document: Element, findings: ModelFindings) -> None:
-    """Report what is beside the model: ROS does not see it."""
+    """Report content beside the model, which ROS ignores."""
     text = loose_text(document)
     if text:
         findings.warn(

@@ -1,7 +1,7 @@
-"""What a pose was meant to count from, where no frame has the name that it says.
+"""Finds the intended frame for a pose whose frame does not exist.
 
-A name is offered only where it makes no ring: a link cannot count from itself, nor from
-what counts from the link.
+It offers only names that make no ring: a link cannot be relative to itself, nor to a
+frame that is relative to the link.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from sambot_viz.robot.slips.vocabulary import is_one_slip
 from sambot_viz.robot.xml.element import Element
 
 _LIKENESS = 0.8
-"""How like a name of a frame must be, where a joint may have been deleted."""
+"""Required similarity to a frame's name, where a joint may have been deleted."""
 
 
 class FrameWords(NamedTuple):
@@ -31,14 +31,14 @@ class FrameWords(NamedTuple):
 def unknown_frame(
     name: str, at: Element, attribute: str, scope: Scope, root: Frame | None
 ) -> FrameWords:
-    """Say that there is no frame of a name, and which one was meant.
+    """Report that a frame does not exist, and suggest the intended one.
 
     Args:
-        name: what the attribute says.
-        at: the element that has the attribute, such as a <pose>.
+        name: value of the attribute.
+        at: element with the attribute, such as a <pose>.
         attribute: its name.
-        scope: the names of the model.
-        root: the link that all others hang from.
+        scope: names of the model.
+        root: link at the top of the tree.
     """
     message = (
         f'{attribute}="{name}" of {described(at)}: there is no link, joint or frame '
@@ -62,12 +62,12 @@ def unknown_frame(
     names = [*_free_names(owner, scope), OWN]
     holder = _holder(owner, scope) if owner is not None else None
     if holder is not None:
-        # The joints of other links may be called alike, but are elsewhere.
+        # The joints of other links may have similar names, but are elsewhere.
         joints = {joint.name for joint in scope.of_kind("joint")} - {holder.name}
         near = [other for other in names if other not in joints]
         meant = next((n for n in near if is_one_slip(name, n)), None)
         if meant is None and _is_zero(at) and holder.name in names:
-            # A link that is where its joint is counts from it.
+            # A link at its joint is relative to it.
             meant = holder.name
         meant = meant or nearest(name, near)
         names = names if meant is None else [meant]
@@ -92,12 +92,12 @@ def _own_link(at: Element, name: str) -> str | None:
 
 
 def joint_is_missing(link: Frame, scope: Scope, root: Frame) -> bool:
-    """Return whether a link counts from a joint that is not there, and hangs from none.
+    """Return whether a link is relative to a missing joint, and has no other joint.
 
     Args:
         link: the frame, of any kind.
-        scope: the names of the model.
-        root: the link that all others hang from.
+        scope: names of the model.
+        root: link at the top of the tree.
     """
     name = _base_name(link)
     if link.kind != "link" or link is root or not name or scope.find(name) is not None:
@@ -112,7 +112,7 @@ def joint_is_missing(link: Frame, scope: Scope, root: Frame) -> bool:
 
 
 def _is_zero(at: Element) -> bool:
-    """Return whether a pose is that of the frame that it counts from."""
+    """Return whether a pose equals that of its base frame."""
     return at.tag == "pose" and not at.text.replace(".", " ").strip("0 \t\r\n")
 
 
