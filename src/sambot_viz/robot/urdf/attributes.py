@@ -17,7 +17,7 @@ from sambot_viz.robot.slips.units import is_with_unit, meant_number, without_uni
 from sambot_viz.robot.xml.element import Element
 
 NOT_REPLACED = "which xacro has not replaced"
-"""The words for an expression that is in place of a number."""
+"""Words for an expression in place of a number."""
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _EXPRESSION = re.compile(r"pi|[*/()]|\d[+-]\d")
@@ -26,13 +26,13 @@ _WORDS = {2: "two", 3: "three", 4: "four"}
 
 
 class BadNumber(ValueError):
-    """Text that urdfdom does not take for a number.
+    """Text that urdfdom does not accept as a number.
 
     Attributes:
-        reason: what is wrong, worded to follow the attribute's text.
-        hint: what to write.
-        right: the right value, where it is certain.
-        in_xacro: the same in a file of xacro, which calculates.
+        reason: the fault, worded to follow the attribute's text.
+        hint: remedy.
+        right: right value, where it is certain.
+        in_xacro: remedy in a file of xacro, which calculates.
     """
 
     def __init__(
@@ -59,13 +59,13 @@ def _rather(reason: str, right: str) -> _Bad:
 
 
 def read_number(text: str) -> float:
-    """One finite number.
+    """Return one finite number.
 
-    Blanks around it are taken, though urdfdom refuses them behind a number: the
+    Blanks around it are accepted, though urdfdom refuses them after a number: the
     caller warns (`has_blank_behind`).
 
     Raises:
-        BadNumber: it is none.
+        BadNumber: the text is not a number.
     """
     return _component(text.strip(" "), text)
 
@@ -76,15 +76,15 @@ def has_blank_behind(text: str) -> bool:
 
 
 def read_numbers(text: str, count: int, name: str = "") -> tuple[float, ...]:
-    """Exactly `count` finite numbers, separated by blanks.
+    """Return exactly `count` finite numbers, separated by blanks.
 
     Args:
         text: the numbers.
-        count: how many there must be.
-        name: the attribute that has them, for the advice.
+        count: required count.
+        name: attribute that contains them, for the advice.
 
     Raises:
-        BadNumber: another number of numbers, or something that is not a number.
+        BadNumber: the count differs, or a part is not a number.
     """
     parts = text.split()
     if "," in text or ";" in text:
@@ -102,10 +102,10 @@ def read_numbers(text: str, count: int, name: str = "") -> tuple[float, ...]:
 
 
 def _without_commas(text: str, count: int) -> _Bad:
-    """Return what is wrong with commas, and the text without them.
+    """Return the fault of commas, and the text without them.
 
-    A comma between two digits is a decimal comma where only that gives as many numbers
-    as are needed.
+    A comma between two digits is a decimal comma if only that gives the required count
+    of numbers.
     """
     marks = "commas" if "," in text else "semicolons"
     cause = f"has {marks}; numbers are separated by blanks only"
@@ -196,7 +196,7 @@ def _value_of(part: str) -> str:
 
 
 def _text_inside(element: Element, name: str) -> str:
-    """Return the value that was written as text, or in an element of that name."""
+    """Return a value written as text, or in an element with the attribute's name."""
     child = element.find(name)
     text = element.text if child is None else child.text
     return " ".join(text.split())
@@ -206,8 +206,8 @@ Report = Callable[[str, str, "str | Fix", Element, "str | None"], None]
 """`ModelFindings.reject`, `.error` or `.warn`: code, text, hint, element, attribute."""
 
 LARGEST = float(limits.NUMBER.value)
-"""Numbers beyond this leave the range in which pictures and poses can be computed:
-browsers have 32 bits, and poses multiply. Real files have limits of 1e16."""
+"""Pictures and poses cannot be computed with numbers beyond this: browsers have 32
+bits, and poses multiply. Real files have limits of 1e16."""
 
 _NOT_DRAWN = frozenset(
     "effort velocity damping friction k_position k_velocity rising falling".split()
@@ -222,11 +222,11 @@ class AttributeReader(NamedTuple):
     """Reads the attributes of one joint or shape.
 
     Attributes:
-        findings: where problems go.
-        report: how grave a wrong number is here: `findings.reject` in a joint,
+        findings: receives problems.
+        report: severity of a wrong number: `findings.reject` in a joint,
             `findings.error` in a link.
-        owner: whose element it is, for messages ("joint wheel_joint").
-        loss: what ROS does about it, for messages.
+        owner: owner of the element, for messages ("joint wheel_joint").
+        loss: consequence in ROS, for messages.
     """
 
     findings: ModelFindings
@@ -242,7 +242,7 @@ class AttributeReader(NamedTuple):
         at: Element,
         name: str | None = None,
     ) -> Unreadable:
-        """Report and give the exception to raise."""
+        """Report a problem, and return the exception to raise."""
         self.report(code, f"{message}; {self.loss}", hint, at, name)
         return Unreadable(message)
 
@@ -250,7 +250,7 @@ class AttributeReader(NamedTuple):
         """Return the attribute's text.
 
         Raises:
-            Unreadable: it is absent.
+            Unreadable: the attribute is missing.
         """
         text = element.get(name)
         if text is None:
@@ -270,7 +270,7 @@ class AttributeReader(NamedTuple):
         """Read a required number.
 
         Raises:
-            Unreadable: it is absent or no number.
+            Unreadable: the attribute is missing or not a number.
         """
         text = self.required(element, name, example)
         try:
@@ -289,18 +289,18 @@ class AttributeReader(NamedTuple):
         return self._bounded(element, name, (value,))[0]
 
     def optional(self, element: Element, name: str, default: float) -> float:
-        """Read a number, or return the default when the attribute is absent.
+        """Read a number, or return the default when the attribute is missing.
 
         Raises:
-            Unreadable: it is not a number.
+            Unreadable: the attribute is not a number.
         """
         return default if element.get(name) is None else self.number(element, name)
 
     def vector(self, element: Element, name: str, default: Vector3) -> Vector3:
-        """Three numbers, or the default when the attribute is absent.
+        """Read three numbers, or return the default when the attribute is missing.
 
         Raises:
-            Unreadable: they are not three numbers.
+            Unreadable: the attribute does not contain three numbers.
         """
         text = element.get(name)
         if text is None:
@@ -345,7 +345,7 @@ class AttributeReader(NamedTuple):
     def _bounded(
         self, element: Element, name: str, values: tuple[float, ...]
     ) -> tuple[float, ...]:
-        """The numbers, each brought into the range that can be shown."""
+        """Return the numbers, each limited to the range that can be shown."""
         if name in _NOT_DRAWN or max(map(abs, values)) <= LARGEST:
             return values
         self.findings.warn(

@@ -33,7 +33,7 @@ def check_ends(parts: RobotParts, findings: ModelFindings) -> RobotParts:
     ]
     missing = {link for _, _, link in unknown}
     if len(missing) <= max(parts.nameless, len(parts.duplicates), parts.shared):
-        # The link exists but lost its name, which has been reported.
+        # The link exists but lost its name, which has its own problem.
         unknown = []
     _report_unknown(parts, findings, _without_blanks(parts, findings, unknown))
     if any(tag == "child" for _, tag, _ in unknown):
@@ -44,7 +44,7 @@ def check_ends(parts: RobotParts, findings: ModelFindings) -> RobotParts:
 def _without_blanks(
     parts: RobotParts, findings: ModelFindings, unknown: list[_Unknown]
 ) -> list[_Unknown]:
-    """Report links whose names have a blank too many; return the other joints."""
+    """Report links whose names contain an extra blank; return the other joints."""
     with_blank = {name.strip(): name for name in parts.links if name != name.strip()}
     named = {end for j in parts.joints.values() for end in (j.parent, j.child)}
     for _, _, link in unknown:
@@ -77,7 +77,7 @@ def _report_unknown(
 ) -> None:
     children = {joint.child for joint in parts.joints.values()}
     roots = (parts.links.keys() | {link for _, _, link in unknown}) - children
-    # With more roots than one, ROS would refuse the robot with these links as well.
+    # With several roots, ROS would refuse the robot even with these links.
     is_whole = len(roots) == 1
     for joint, tag, link in unknown:
         element = parts.joint_elements[joint.name]

@@ -1,4 +1,4 @@
-"""The limits of a joint, and its elements that only have to be right."""
+"""The limits of a joint, and its elements that only need to be valid."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ _RANGES: Mapping[str, tuple[float, float, float]] = {
     "revolute": (-1.57, 1.57, 1.0),
     "prismatic": (0.0, 0.1, 0.1),
 }
-"""Type of joint → the ends of a range, and a step beyond an end [rad or m]."""
+"""Type of joint → usual ends of a range, and a step beyond an end [rad or m]."""
 
 
 def _example(kind: str, missing: Sequence[str], limit: Limit) -> str:
-    """Write the missing ends of a range, below or above the end that is there."""
+    """Write the missing ends of a range, below or above the existing end."""
     least, most, step = _RANGES[kind]
     lower = least if "upper" in missing else min(least, limit.upper - step)
     upper = most if "lower" in missing else max(most, limit.lower + step)
@@ -29,7 +29,7 @@ def _example(kind: str, missing: Sequence[str], limit: Limit) -> str:
 class LimitReader:
     """Reads <limit>, <safety_controller>, <dynamics> and <calibration> of one joint.
 
-    What is refused here is what urdfdom refuses.
+    It refuses what urdfdom refuses.
     """
 
     def __init__(
@@ -176,13 +176,13 @@ class LimitReader:
         return Dynamics(damping, friction)
 
     def check_calibration(self) -> None:
-        """Report a <calibration> that ROS refuses; its numbers are not kept."""
+        """Report a <calibration> that ROS refuses; discard its numbers."""
         element = self._element.find("calibration")
         if element is not None:
             self._numbers(element, ("rising", "falling"))
 
     def _numbers(self, element: Element, names: tuple[str, ...]) -> list[float]:
-        """Read numbers; one that is wrong has been reported and is 0."""
+        """Read numbers; a wrong one is reported and becomes 0."""
         numbers: list[float] = []
         for name in names:
             try:

@@ -33,7 +33,7 @@ _MEANT: dict[str, JointType] = {
     "translational": "prismatic",
     "free": "floating",
 }
-"""What people call a type → the type."""
+"""Common name of a type → the type."""
 
 
 def read_joint(element: Element, findings: ModelFindings) -> Joint | None:
@@ -96,7 +96,7 @@ def _type(element: Element, name: str, findings: ModelFindings) -> JointType | N
 
 
 def meant_type(element: Element, text: str, types: Iterable[str]) -> str | None:
-    """Return the type that was meant by a word that is none of the types, or None."""
+    """Return the intended type for a word that is not a type, or None."""
     known = list(types)
     near = _MEANT.get(text.strip().lower()) or nearest(text.lower(), known)
     if near == "revolute" and not any(each.tag == "limit" for each in element.iter()):
@@ -105,7 +105,7 @@ def meant_type(element: Element, text: str, types: Iterable[str]) -> str | None:
 
 
 def _usual(element: Element) -> JointType:
-    """Return the type of a joint that has these elements."""
+    """Return the usual type of a joint with these elements."""
     if element.find("axis") is None:
         return "fixed"
     return "continuous" if element.find("limit") is None else "revolute"

@@ -1,7 +1,7 @@
-"""Build the tree of links and joints as ROS would, and report what is wrong with it.
+"""Build the tree of links and joints as ROS would, and report its faults.
 
-An error that urdfdom refuses rejects the model. An error that urdfdom accepts is
-reported, and the tree is built as ROS builds it.
+An error that urdfdom refuses rejects the model. For an error that urdfdom accepts, the
+module reports it and builds the tree as ROS does.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ class Tree(NamedTuple):
 
 
 def build_tree(parts: RobotParts, findings: ModelFindings) -> Tree | None:
-    """Check the structure and return the tree that ROS would show.
+    """Check the structure, and return the tree that ROS would show.
 
-    ROS refuses a file that is only part of a robot (an include file). Here its missing
-    links are added, empty and with a warning.
+    ROS refuses a file that is only part of a robot (an include file). This function
+    adds its missing links, empty and with a warning.
 
     Returns:
         The tree, or None when there is none.
@@ -94,7 +94,7 @@ def _check_self_joints(parts: RobotParts, findings: ModelFindings) -> None:
         if len(alone) == len(selves) == 1:
             below = _below(parts)
             sizes = [len(links_below(each, below)) for each in (*alone, joint.child)]
-            # base_footprint is the root even where it has nothing else below it.
+            # base_footprint is the root even without anything else below it.
             is_root = sizes[0] > sizes[1] and "footprint" not in joint.child
             end = "parent" if is_root else "child"
             hint = f'write <{end} link="{alone[0]}"/>'
@@ -108,10 +108,11 @@ def _check_self_joints(parts: RobotParts, findings: ModelFindings) -> None:
 
 
 def _without_joint(parts: RobotParts, link: str) -> list[str]:
-    """Return the links that a joint of a link to itself may have been meant to join.
+    """Return the links that a joint from a link to itself may be intended to join.
 
-    They are the child of no other joint. The root is not either: it is the link itself
-    where that is the child of nothing else, otherwise the one with the most below it.
+    No other joint has them as its child, and they are not the root. The root is the
+    link itself if no other joint has it as its child, otherwise the lone link with the
+    most links below it.
     """
     below = _below(parts)
     children = {child for each in below.values() for child in each}
@@ -128,7 +129,7 @@ def _below(parts: RobotParts) -> dict[str, list[str]]:
 
 
 def _parent_joints(parts: RobotParts, findings: ModelFindings) -> dict[str, Joint]:
-    """Link → the joint whose child it is; of several, the last by alphabet."""
+    """Return link → the joint whose child it is; of several, the last by alphabet."""
     holders: dict[str, list[Joint]] = {}
     for joint in parts.joints.values():
         if joint.child in parts.links:
@@ -177,7 +178,7 @@ def _report_copied(
 def _report_exchanged(
     parts: RobotParts, findings: ModelFindings, joints: list[Joint], turned: Joint
 ) -> None:
-    """Report a joint whose parent and child are exchanged."""
+    """Report a joint whose parent and child are swapped."""
     other = next(joint for joint in joints if joint is not turned)
     findings.reject(
         "link-two-parents",
@@ -268,7 +269,7 @@ def _report_rings(
 
 
 def _largest(parts: RobotParts, roots: list[str]) -> str:
-    """The root with the most links below it; the other roots are unconnected parts."""
+    """Return the root with the most links below it; others are unconnected parts."""
     children = children_of(parts.joints.values())
     return max(roots, key=lambda root: len(links_below(root, children)))
 

@@ -1,7 +1,7 @@
 """Links with their shapes and inertia, in urdfdom's reading order.
 
-Inertia first, then all visuals, then all collisions; the first thing that cannot be
-read ends the link, and what was read before it stays.
+urdfdom reads the inertia first, then all visuals, then all collisions. The first
+unreadable part ends the link; earlier parts stay.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ _INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 class LinkReader:
-    """Reads <link> elements one after the other, sharing the material table."""
+    """Reads <link> elements one by one, sharing the material table."""
 
     def __init__(
         self, findings: ModelFindings, materials: MaterialTable, find_mesh: FindMesh
@@ -54,7 +54,7 @@ class LinkReader:
         self._find_mesh = find_mesh
 
     def read(self, element: Element, name: str) -> Link:
-        """Read the link as ROS would keep it, and report what is wrong in it."""
+        """Read the link as ROS would keep it, and report its faults."""
         inertial, complete = self._inertial(element, name)
         visuals, complete = self._shapes(element, name, "visual", complete)
         current = next((v.material for v in reversed(visuals) if v.material), None)
@@ -118,7 +118,7 @@ class LinkReader:
         complete: bool,
         current: Material | None = None,
     ) -> tuple[list[Shape], bool]:
-        """Read all visuals or collisions; those after a wrong one are only checked.
+        """Read all visuals or collisions; only check those after a wrong one.
 
         Each has the last material before it, or the `current` one.
         """
@@ -291,12 +291,12 @@ def _half(element: Element) -> Fix:
 
 
 def _moments_to_add(inertia: Element, missing: list[str]) -> str:
-    """Write what is missing: a moment is like the others, a product is 0."""
+    """Write the missing values: a moment like the others, a product as 0."""
     numbers: dict[str, float] = {}
     for text in filter(None, map(inertia.get, ("ixx", "iyy", "izz"))):
         with contextlib.suppress(BadNumber):
             numbers[text] = read_number(text)
-    # The largest one fits any two: none is more than the sum of the others.
+    # The largest one fits any two: no moment exceeds the sum of the others.
     like = max(numbers, key=numbers.__getitem__, default="0.01")
     values = {key: like if key[1] == key[2] else "0" for key in missing}
     return " ".join(f'{key}="{value}"' for key, value in values.items())
@@ -316,13 +316,13 @@ def _shape(
 
 
 def _loss(name: str, tag: str, later: int, bodies: int) -> str:
-    """Say what urdfdom loses with a shape.
+    """Describe what urdfdom loses with a shape.
 
     Args:
-        name: of the link.
-        tag: of the shape.
-        later: how many of its tag come after it.
-        bodies: how many collisions come after all of these.
+        name: name of the link.
+        tag: tag of the shape.
+        later: number of later shapes with the same tag.
+        bodies: number of collisions after all of these.
     """
     parts = [
         f"{count} {word}{'' if count == 1 else 's'}"

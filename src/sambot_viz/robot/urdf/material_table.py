@@ -80,7 +80,7 @@ class MaterialTable:
         self._known[name] = _Known(material or Material(name, _BLACK), element)
 
     def of_visual(self, element: Element) -> Material | None:
-        """Find the material that a <material> in a visual means; None is RViz's red."""
+        """Find the material for a <material> in a visual; None is RViz's red."""
         name = element.get("name") or ""
         inline = self._defined(name, element)
         if not name:
@@ -126,7 +126,7 @@ class MaterialTable:
         )
 
     def _defined(self, name: str, element: Element) -> Material | None:
-        """Return what the element itself defines, or None for a mere reference."""
+        """Return the element's own definition, or None for a mere reference."""
         color = element.find("color")
         texture = element.find("texture")
         rgba = self._rgba(name, color) if color is not None else None
@@ -191,7 +191,7 @@ class MaterialTable:
 
 
 def _better_colour(color: Element, text: str, bad: BadNumber) -> str | Fix:
-    """Advise what to write for a colour that cannot be read."""
+    """Suggest a replacement for an unreadable colour."""
     if bad.right:
         return write_attribute(color.place, "rgba", text, bad.right)
     if bad.hint.startswith('write "'):
@@ -206,7 +206,7 @@ def _better_colour(color: Element, text: str, bad: BadNumber) -> str | Fix:
 
 
 def _guess(name: str) -> str:
-    """An rgba that fits the name of the material."""
+    """Return an rgba that fits the name of the material."""
     found = (rgba for word, rgba in _COLOURS.items() if word in name.lower())
     return next(found, "0.5 0.5 0.5 1")
 

@@ -44,11 +44,11 @@ def read_urdf(
     """Read a document.
 
     Args:
-        document: its root element.
-        findings: where problems go; `findings.rejected` says whether ROS refuses it.
+        document: root element.
+        findings: receives problems; `findings.rejected` is set if ROS refuses it.
         find_mesh: mesh name → file.
         find_texture: texture name → file.
-        expanded: the document came out of xacro.
+        expanded: whether the document comes from xacro.
 
     Returns:
         The robot, or None when nothing can be drawn.

@@ -1,4 +1,4 @@
-"""Which of two links or joints of one name was meant to have another, and which."""
+"""Decides which of two links or joints with one name should have another, and which."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ _PLAIN = "give one of the two another name"
 def other_link(first: Element, second: Element, wanted: str, joint: Element) -> Fix:
     """Return the fix that gives one of two links the name that a joint expects.
 
-    It is the one beside the joint.
+    It renames the link beside the joint.
 
     Args:
-        first: the link that has the name.
-        second: the one that has it again.
-        wanted: the name of no link.
-        joint: whose child has that name.
+        first: link with the name.
+        second: link that repeats it.
+        wanted: name that no link has.
+        joint: joint whose child has that name.
     """
     beside = _nearer(joint, first, second)
     said = joint.get("name") or ""
@@ -55,9 +55,9 @@ def other_joint(first: Element, second: Element, robot: Element) -> Fix:
     """Return the fix that gives one of two joints the name that belongs to its child.
 
     Args:
-        first: the joint that has the name.
-        second: the one that has it again.
-        robot: the <robot> that they are in.
+        first: joint with the name.
+        second: joint that repeats it.
+        robot: the <robot> that contains them.
     """
     name = second.get("name") or ""
     stems = [_stem(joint) for joint in (first, second)]
@@ -88,7 +88,7 @@ def _child(joint: Element) -> str:
 
 
 def _used_joints(robot: Element) -> Iterator[str]:
-    """Give the joints that the parts for Gazebo and ros2_control name."""
+    """Yield the joints named in the parts for Gazebo and ros2_control."""
     for part in robot.children:
         for element in part.iter() if part.tag in _USERS else ():
             if element.tag == "joint":

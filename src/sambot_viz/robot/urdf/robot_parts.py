@@ -1,4 +1,4 @@
-"""Read the links and joints of a <robot> element, before they are joined to a tree."""
+"""Read the links and joints of a <robot> element, before they form a tree."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ class RobotParts:
         joint_elements: name → element.
         excused: links that are unconnected only because a joint was rejected.
         nameless: number of links without a name, which a joint may refer to.
-        duplicates: link names that are used twice, so that a joint may mean either.
-        repeated_calls: macro calls that made links of a name that was used.
+        duplicates: repeated link names, so that a joint may mean either link.
+        repeated_calls: macro calls that create links with a repeated name.
         shared: number of links to which one place in a macro gives the same name.
     """
 
@@ -45,12 +45,12 @@ class RobotParts:
 
     @cached_property
     def wanted(self) -> tuple[tuple[str, str, str], ...]:
-        """Joints with the links that they name and that do not exist, and as what."""
+        """Joints with their missing links, and the role of each link."""
         return tuple(_wanted(self.robot))
 
     @property
     def is_fragment(self) -> bool:
-        """True for a part of a robot, written to be included by another file.
+        """Return whether this is a part of a robot for other files to include.
 
         Such a file has one undefined parent link that would make everything one tree,
         or it has no robot name and joints between links of other files.
@@ -69,12 +69,12 @@ class RobotParts:
 def read_parts(
     robot: Element, reader: LinkReader, findings: ModelFindings
 ) -> RobotParts:
-    """Read the links, then the joints; each name that is used twice counts once.
+    """Read the links, then the joints; each repeated name counts once.
 
     Args:
         robot: the <robot> element.
         reader: reads one <link>.
-        findings: where the problems go.
+        findings: receives the problems.
     """
     parts = RobotParts(robot)
     _read_links(parts, reader, findings)
@@ -200,7 +200,7 @@ def _read_joints(parts: RobotParts, findings: ModelFindings) -> None:
                 element,
             )
         if joint is None or first is not None:
-            # A link without this joint is not reported as unconnected.
+            # This excuses links that are unconnected only without this joint.
             ends = [element.find(tag) for tag in ("child", "parent")]
             links = [end.get("link") for end in ends if end is not None]
             known = [link for link in links if link]

@@ -1,4 +1,4 @@
-"""What people write in URDF as they know it from SDF; ROS ignores it without a word."""
+"""SDF's notation in URDF files, which ROS ignores without a message."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ _ONLY_SDF = frozenset("pose size radius length uri ambient diffuse".split())
 
 
 def report_sdf_habits(robot: Element, findings: ModelFindings) -> None:
-    """Warn of elements of SDF in a URDF, with what to write in URDF.
+    """Warn of SDF elements in a URDF, with URDF's notation.
 
     Args:
         robot: the <robot> element.
-        findings: where the warnings go.
+        findings: receives the warnings.
     """
     for part in robot.children:
         if part.tag in _OF_ROBOT and _is_sdf(part):
@@ -31,7 +31,7 @@ def report_sdf_habits(robot: Element, findings: ModelFindings) -> None:
 
 
 def is_model_of_sdf(group: Element) -> bool:
-    """Return whether links are in a <model> and are written as in SDF."""
+    """Return whether links are in a <model> and in SDF's notation."""
     inside = list(group.iter()) if group.tag == "model" else []
     if any(e.tag == "origin" or e.get("link") is not None for e in inside):
         return False
@@ -42,10 +42,10 @@ def is_model_of_sdf(group: Element) -> bool:
 
 
 def _is_sdf(element: Element) -> bool:
-    """Return whether it is not a sensor of URDF.
+    """Return whether an element is not a sensor of URDF.
 
-    Such a sensor has no type, or names a link or joint as its parent, as iDynTree
-    reads it.
+    A URDF sensor has no type, or names a link or joint as its parent, in iDynTree's
+    reading.
     """
     if element.tag != "sensor":
         return True
@@ -69,7 +69,7 @@ def _check_link(link: Element, robot: Element, findings: ModelFindings) -> None:
 def _report_simulated(
     element: Element, around: str, owner: str, findings: ModelFindings
 ) -> None:
-    """Warn of what is for the simulator and not in <gazebo>."""
+    """Warn of elements for the simulator outside <gazebo>."""
     findings.warn(
         "urdf-sdf-habit",
         f"{tag_text(element)}{owner} is SDF: in URDF neither ROS nor Gazebo reads it "
@@ -118,7 +118,7 @@ def _report_pose_of_link(
 
 
 def _as_origin(pose: Element) -> str:
-    """Write a <pose> as URDF has it."""
+    """Write a <pose> in URDF's notation."""
     numbers = pose.text.split()
     try:
         read_numbers(pose.text, 6)

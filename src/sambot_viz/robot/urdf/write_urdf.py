@@ -1,4 +1,4 @@
-"""Write a robot as URDF text: what robot_state_publisher makes of an SDF file."""
+"""Write a robot as URDF text, like robot_state_publisher for an SDF file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a failed expansion ended with, and what of it goes on for ever."""
+"""The exception of a failed expansion, and the repeating part of endless ones."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ T = TypeVar("T")
 
 
 class OutputLimit(Exception):
-    """The expanded text is longer than allowed."""
+    """The expanded text exceeds the limit."""
 
 
 def again(things: Sequence[T]) -> list[T]:
-    """Return what is in a list more than once, in its order."""
+    """Return the repeated items of a list, in its order."""
     return [thing for thing in things if things.count(thing) > 1]
 
 
 def unwrapped(error: BaseException) -> tuple[BaseException, list[str]]:
-    """Return the exception below xacro's wrappers, and the expressions it passed."""
+    """Return the exception below xacro's wrappers, and the expressions on the way."""
     expressions: list[str] = []
     while True:
         suffix = getattr(error, "suffix", None) or ""

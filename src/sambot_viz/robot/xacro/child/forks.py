@@ -1,8 +1,8 @@
-"""In a process that has done its imports: a fork for each order.
+"""Forks for each order, in a process that has done its imports.
 
-`robot/fork_server.py` is the other side. With each order come ends of three pipes: the
-order, whose end of file is the end of the fork; the answer; how the fork has ended.
-Nothing of an order is read here, so none can see what another one was about.
+`robot/fork_server.py` is the other side. Each order brings the ends of three pipes: the
+order, whose end of file is the end of the fork; the answer; the exit status of the
+fork. This process reads no order, so no fork can see another's content.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from contextlib import suppress
 from typing import NamedTuple
 
 _ENDS = 3
-"""So many descriptors come with an order."""
+"""Number of descriptors with each order."""
 
 
 class _Fork(NamedTuple):
@@ -32,7 +32,7 @@ def serve(seconds: float) -> None:
     """
     orders = socket.socket(fileno=os.dup(0))
     forks: dict[int, _Fork] = {}
-    # What was imported is used by all: no fork looks through it for garbage.
+    # All forks share the imported modules, so no fork should scan them for garbage.
     gc.collect()
     gc.freeze()
     news = select.poll()
@@ -61,7 +61,7 @@ def serve(seconds: float) -> None:
             return
         os.close(answer)
         forks[order] = _Fork(process, status)
-        # Not that there is something to read: that the other end was closed.
+        # Zero asks only whether the other end has closed, not for data.
         news.register(order, 0)
     os._exit(0)
 
@@ -75,10 +75,10 @@ def _become_fork(order: int, answer: int, others: list[int]) -> None:
 
 
 def _collect(order: int, fork: _Fork) -> None:
-    """End a fork with all that it has started, and tell how it has ended."""
+    """End a fork with all its processes, and report its exit status."""
     os.close(order)
     for end in (os.killpg, os.kill):
-        # It may have no session yet; one that has ended keeps its status.
+        # It may have no session yet; a fork that has ended keeps its status.
         with suppress(ProcessLookupError, PermissionError):
             end(fork.process, signal.SIGKILL)
     _, status = os.waitpid(fork.process, 0)

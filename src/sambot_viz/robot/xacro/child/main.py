@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from sambot_viz.robot.xacro.child.exchange import Job
 
 WAIT = 60.0
-"""It ends when no job comes for this time [s]."""
+"""The process ends after this time without a job [s]."""
 
 
 def limit_resources(megabytes: int, seconds: int) -> None:
@@ -57,7 +57,7 @@ def make_packages(root: str, *names: str) -> None:
 
 
 def keep_result_channel() -> int:
-    """Move standard output away, so that only the answer is written there."""
+    """Redirect standard output, and return the original for the answer alone."""
     channel = os.dup(1)
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
@@ -66,11 +66,11 @@ def keep_result_channel() -> int:
 
 
 def end_with_parent() -> None:
-    """Let this process and what it starts be killed when the parent process dies.
+    """Let the kernel kill this process and its children when the parent dies.
 
-    The parent has the other end of standard input. On Linux the kernel sends the
-    signal when that end closes, so that it works even inside a long call of C code; a
-    thread that waits for the end does it elsewhere.
+    The parent holds the other end of standard input. On Linux the kernel sends the
+    signal when that end closes, even inside a long call of C code; elsewhere a thread
+    waits for the end.
     """
     try:
         import fcntl
@@ -124,7 +124,7 @@ def main() -> None:
     answer = run(job)
     with os.fdopen(channel, "wb") as stream:
         stream.write(answer)
-    # Threads and exit hooks that the model has left behind do not run.
+    # Threads and exit hooks that the model has left must not run.
     os._exit(0)
 
 

@@ -32,10 +32,10 @@ class XacroFiles:
     """Replaces ament_index_python, and finds files that xacro does not find.
 
     Args:
-        index: where packages are.
-        guard: checks the paths of a model that is not trusted.
-        warn: takes what is doubtful.
-        named: gets the absolute name of every file that the model names.
+        index: finds packages.
+        guard: checks the paths of an untrusted model.
+        warn: receives doubtful cases.
+        named: receives the absolute name of every file that the model names.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class XacroFiles:
         self._named = named
         self._roots: list[Path] = []
         if guard is not None:
-            # Not the packages found: their names come from the model.
+            # Without packages found by name: the names come from the model.
             guard.roots = index.own_roots()
 
     def install(self, xacro: Any) -> None:
@@ -92,15 +92,15 @@ class XacroFiles:
             return path
         path = self._elsewhere(Path(path), xacro.filestack) or path
         if self._guard is not None:
-            # What was found instead may be a link out of the folder.
+            # The replacement may be a link out of the folder.
             self._guard.check_path(path)
         return path
 
     def _elsewhere(self, path: Path, stack: list[str | None]) -> str | None:
-        """The file in a source tree that is laid out unlike the installed package.
+        """Return the file in a source tree with another layout than the package.
 
-        A file that is being included is not returned, because it would include itself
-        without end.
+        A file in the middle of its own inclusion is never returned, because it would
+        include itself endlessly.
         """
         cased = other_letter_case(path)
         if cased is not None:

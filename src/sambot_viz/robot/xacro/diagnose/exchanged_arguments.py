@@ -1,4 +1,4 @@
-"""Calls of macros in which the values of two parameters are exchanged."""
+"""Macro calls that swap the values of two parameters."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _SHORT = {
     "r": ("radius",),
     "w": ("width",),
 }
-"""Parameter of one letter → the words that it stands for."""
+"""One-letter parameter → words that it stands for."""
 
 _Kind = Literal["word", "number"]
 
@@ -51,10 +51,10 @@ class _MacroCall(NamedTuple):
 
 
 def exchanged_arguments(sources: SourceSet) -> Iterator[Problem]:
-    """Yield calls that give two parameters the values of each other.
+    """Yield calls that give each of two parameters the other's value.
 
     Args:
-        sources: the files that xacro reads.
+        sources: files that xacro reads.
     """
     calls: dict[str, list[_MacroCall]] = {}
     macros = {macro.name for macro in sources.named("macro")}
@@ -72,7 +72,7 @@ def exchanged_arguments(sources: SourceSet) -> Iterator[Problem]:
 def without_consequences(
     problems: Sequence[Problem], exchanged: Sequence[Problem]
 ) -> list[Problem]:
-    """Return problems, with the calls that they come from in their place.
+    """Replace problems by the calls that cause them.
 
     Of two calls that differ, the one without a problem of its own is right.
     """
@@ -88,7 +88,7 @@ def without_consequences(
 
 
 def _of_kinds(call: _MacroCall, others: Sequence[_MacroCall]) -> Problem | None:
-    """Report a word for a number and a number for a word, as no other call has it."""
+    """Report a word in place of a number and vice versa, unlike in all other calls."""
     names = [each.name for each in call.tag.attributes]
     for one, other in permutations(names, 2):
         if (_kind(call, one), _kind(call, other)) != ("number", "word"):
@@ -109,7 +109,7 @@ def _kind(call: _MacroCall, name: str) -> _Kind | None:
 
 
 def _of_names(call: _MacroCall) -> Problem | None:
-    """Report two properties of which one is called after the other parameter."""
+    """Report two properties, one of which has the name of the other parameter."""
     names = [each.name for each in call.tag.attributes]
     for one, other in permutations(names, 2):
         values = [_PROPERTY.fullmatch(call.tag.get(n) or "") for n in (one, other)]

@@ -1,7 +1,7 @@
-"""Texts that are not numbers, named where xacro was given them and not at each use.
+"""Reports a text that is not a number where the file defines it, not at each use.
 
-A property, an argument or a macro's parameter is written once; what is made of it fails
-in every element that uses it.
+A property, an argument or a macro's parameter has one definition; its value fails in
+every element that uses it.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from sambot_viz.robot.xacro.diagnose.source_files import SourceSet, token_place
 from sambot_viz.robot.xml.diagnose.lexer import Token
 
 _NUMBERS = ("number-malformed", "sdf-value", "sdf-number-cut-off")
-"""The codes of problems with a text in place of a number."""
+"""Codes of problems with a text in place of a number."""
 
 _FILLED_UP = re.compile(r'write rpy="(\S+) 0 0"')
 _SAID = re.compile(r'(?:\w+="(?P<value>[^"]*)"|<(\w+)>(?P<text>[^<]*)</\w+>)')
@@ -31,14 +31,14 @@ _LOOKS_LIKE_A_NUMBER = re.compile(r"\s*[+-]?[.,]?\d")
 
 @dataclass(frozen=True, slots=True)
 class _Given:
-    """A value that a name has.
+    """The value of a name.
 
     Attributes:
-        name: the property, argument or parameter.
-        place: the element that gives the value.
+        name: property, argument or parameter.
+        place: element that gives the value.
         owner: that element, for messages.
-        before: what is written before the value: ``value=`` or ``radius:=``.
-        value: the value as it is written.
+        before: text before the value: ``value=`` or ``radius:=``.
+        value: value as written.
     """
 
     name: str
@@ -48,13 +48,13 @@ class _Given:
     value: str
 
     def written(self, value: str) -> str:
-        """Write a value as this one is written."""
+        """Write another value in the same notation."""
         quote = '"' if self.before.endswith('"') else ""
         return f"{self.before}{value}{quote}"
 
     @property
     def bad(self) -> BadNumber | None:
-        """What is wrong with it as one number, or as several; None for nothing."""
+        """The fault as one number, or as several; None without a fault."""
         if "$" in self.value or not _LOOKS_LIKE_A_NUMBER.match(self.value):
             return None
         try:
@@ -73,11 +73,11 @@ class _Given:
 def name_given_values(
     problems: Sequence[Problem], files: Iterable[str]
 ) -> list[Problem]:
-    """Return the problems, with those that come from one wrong value as one.
+    """Merge the problems that come from one wrong value, and return all problems.
 
     Args:
-        problems: those of a model that came out of xacro.
-        files: the files that xacro read, as the user would write them.
+        problems: problems of a model that comes from xacro.
+        files: files that xacro has read, as the user would write them.
     """
     if not any(problem.code in _NUMBERS for problem in problems):
         return list(problems)
@@ -111,7 +111,7 @@ def _report(problem: Problem, cause: _Given, bad: BadNumber) -> Problem:
 
 
 def _bare_name(problem: Problem, sources: SourceSet) -> Problem | None:
-    """Report the name of a property or parameter that is written without ${ and }."""
+    """Report a property's or parameter's name without ${ and }."""
     said = _SAID.match(problem.message)
     value = "" if said is None else said["value"] or said["text"] or ""
     if problem.code not in _NUMBERS or said is None or not value:
@@ -140,7 +140,7 @@ def _calculated(part: str, known: set[str]) -> str:
 
 
 def _parameters_at(problem: Problem, sources: SourceSet) -> list[str]:
-    """Return the parameters of the macro in which a problem is."""
+    """Return the parameters of the macro that contains a problem."""
     source, found = sources.get(problem.file or ""), list[str]()
     for token in source.tags if source is not None else ():
         if source is None or source.line(token.start) > (problem.line or 0):
@@ -151,7 +151,7 @@ def _parameters_at(problem: Problem, sources: SourceSet) -> list[str]:
 
 
 def _as_written(problem: Problem, sources: SourceSet) -> Problem:
-    """Advise to fill up an expression itself, not the number that it gives."""
+    """Advise to complete the expression itself, not the number that it gives."""
     one = _FILLED_UP.match(problem.hint)
     if one is None:
         return problem
@@ -164,7 +164,7 @@ def _as_written(problem: Problem, sources: SourceSet) -> Problem:
 
 
 def _given(sources: SourceSet) -> Iterator[_Given]:
-    """Yield what properties, arguments and parameters of macros are."""
+    """Yield the values of properties, arguments and macro parameters."""
     for file, source in sources.sources():
         for token in source.tags:
             if token.closes or not token.name.startswith("xacro:"):
@@ -194,7 +194,7 @@ def _given_by(token: Token, place: Place) -> Iterator[_Given]:
 def _causes(
     problem: Problem, sources: SourceSet, given: Sequence[_Given]
 ) -> list[tuple[_Given, BadNumber]]:
-    """Return the wrong values that the element of a problem is made of."""
+    """Return the wrong values that end up in the element of a problem."""
     if problem.code not in _NUMBERS or problem.file is None or problem.line is None:
         return []
     waiting = _names_in(_written(problem, sources))
@@ -220,7 +220,7 @@ def _names_in(text: str) -> list[str]:
 
 
 def _written(problem: Problem, sources: SourceSet) -> str:
-    """Return an element as it is written, with the text behind its tag."""
+    """Return an element as written, with the text after its tag."""
     source = sources.get(problem.file or "")
     if source is None or problem.line is None:
         return ""
