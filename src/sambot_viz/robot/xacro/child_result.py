@@ -1,4 +1,4 @@
-"""The report of the xacro child process: the expanded model, or why it failed."""
+"""The report of the xacro child process: the expanded model, or the failure."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Definition(NamedTuple):
 
 
 class XacroCall(NamedTuple):
-    """One macro call on the way to an element: what was called, and from where."""
+    """One macro call on the way to an element: the macro, and the place of the call."""
 
     macro: str
     file: str
@@ -102,7 +102,7 @@ class ExpansionError(Exception):
 class ExpansionXmlError(Exception):
     """A file that xacro reads is not XML: `file`, and the `fault` in it.
 
-    `files` are those that were read or looked for, beside the model.
+    `files` lists the files beside the model that xacro has read or looked for.
     """
 
     def __init__(self, file: str, fault: XmlFault, files: tuple[str, ...] = ()) -> None:
@@ -131,7 +131,7 @@ class ExpandedModel(NamedTuple):
 
 
 def read_result(answer: ChildAnswer, file: str) -> ExpandedModel:
-    """Read what the child process sent.
+    """Decode the answer of the child process.
 
     Args:
         answer: the decoded JSON.
@@ -175,7 +175,7 @@ def read_result(answer: ChildAnswer, file: str) -> ExpandedModel:
 
 
 def _tree(expanded: ExpandedAnswer) -> tuple[Element, bool]:
-    """The elements, and whether one of their names is not allowed in XML."""
+    """Return the elements, and whether XML forbids one of their names."""
     top = Element("", {}, Place("", 0))
     names: set[str] = set()
     waiting = [(top, 1)]
@@ -202,7 +202,7 @@ def _tree(expanded: ExpandedAnswer) -> tuple[Element, bool]:
 
 
 def _not_xml(root: Element, file: str) -> XacroFailure:
-    """The failure for a name or a character that XML does not allow, with its place."""
+    """Return the failure for a name or a character that XML forbids, with its place."""
     for element in root.iter():
         for name in (element.tag, *element.attributes):
             if not _NAME.fullmatch(name):

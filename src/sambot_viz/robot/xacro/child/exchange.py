@@ -1,6 +1,6 @@
 """Types of the JSON that the parent process and the xacro child exchange.
 
-Tuples arrive as lists, which are unpacked all the same.
+Tuples arrive as lists, which unpack in the same way.
 """
 
 from __future__ import annotations
@@ -10,14 +10,14 @@ from typing import TypedDict
 Node = tuple[str, dict[str, str], str, int]
 """An element: tag, attributes, text, number of child elements."""
 NodePlace = tuple[int, int, int, int, int]
-"""Of an element: number of its file, line, column; number of the file and line of the
-outermost macro call that it came through, or -1 twice."""
+"""Place of an element: number of its file, line, column; number of the file and line of
+the outermost macro call that created it, or -1 twice."""
 Call = tuple[str, str, int]
 """A macro, and the file and line of its call."""
 DefinitionRow = tuple[str, str, str, int, str]
 """Kind ("macro", "property", "arg"), name, file, line and parameters of a macro."""
 WarningRow = tuple[str, str, "int | None", "int | None"]
-"""What xacro says, and the file, line and column."""
+"""xacro's message, and the file, line and column."""
 UnprefixedRow = tuple[str, bool, str, int, int]
 """An element without its prefix: tag, whether a macro has that name, and the place."""
 
@@ -40,7 +40,7 @@ class Job(TypedDict):
 
 
 class ExpandedAnswer(TypedDict):
-    """The model that xacro has made: elements in document order, and what it said."""
+    """The expanded model: elements in document order, and xacro's messages."""
 
     xml: str
     nodes: list[Node]

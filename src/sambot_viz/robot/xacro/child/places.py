@@ -1,8 +1,8 @@
-"""Inside the child: minidom nodes with the place where they were written.
+"""Inside the child: minidom nodes that know their places in the files.
 
-xacro works on a minidom tree without positions. Here every element has
-the place where it was parsed. Clones keep it, so an expanded element still has the file
-and line that the user wrote, and the macro calls it came through.
+xacro works on a minidom tree without positions. Here every element has the place where
+it was parsed. Clones keep it, so an expanded element still has the user's file and
+line, and the macro calls that created it.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Inside the child: run the real xacro and report what happened, and where."""
+"""Inside the child: run the real xacro, and report the outcome with places."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ _XACRO_WORDS = frozenset(
 
 
 import_lazily("yaml")
-# It is read while the child may still wait for its job.
+# Imported now, while the child may still wait for its job.
 _XACRO: Any = importlib.import_module("xacro")
 
 
 def run(job: Job) -> bytes:
-    """Expand as the job says and give the answer as JSON.
+    """Expand a model as the job says, and return the answer as JSON.
 
     An exception that the model causes becomes a part of the answer.
     """
@@ -95,7 +95,7 @@ class Expansion:
 
     @property
     def wanted(self) -> list[str]:
-        """The files beside the model that were read or looked for, so far."""
+        """The files beside the model that xacro has read or looked for so far."""
         return list(dict.fromkeys([*self._files, *self._named]))
 
     def result(self) -> ExpandedAnswer:
@@ -124,7 +124,7 @@ class Expansion:
         }
 
     def _unprefixed(self, root: Any) -> list[UnprefixedRow]:
-        """Elements that look like a macro call or a directive without its prefix."""
+        """Return elements that look like a macro call or directive without prefix."""
         macros = {name for kind, name in self._definitions if kind == "macro"}
         words = macros | _XACRO_WORDS
         inside = (node for node in elements(root) if node.parentNode is root)
@@ -143,7 +143,7 @@ class Expansion:
             for m in reversed(self._xacro.macrostack or [])
         ]
         if isinstance(cause, RecursionError):
-            # What else was being read when the depth was reached, is chance.
+            # Only chance decides which other files were open at the depth limit.
             places = again([one.sambot_place for one in self._entered]) or [place]
             place, stack, macros = places[-1], again(stack), again(macros)
         return {
@@ -211,7 +211,7 @@ class Expansion:
         return repaired_prolog(decode(data) if edited is None else edited)
 
     def _shown(self, filename: str) -> str:
-        """A file name as the user would write it: relative where the model is."""
+        """Return a file name as the user would write it: relative to the model."""
         path = os.path.normpath(filename)
         if os.path.isabs(path) and not os.path.isabs(self._job["file"]):
             try:

@@ -36,7 +36,7 @@ class Guard:
     """Replaces xacro's evaluator and checks its paths.
 
     Attributes:
-        roots: the folders, beside the model's own, that files are read from.
+        roots: folders, beside the model's own, from which files may come.
     """
 
     def __init__(self, folder: str | None) -> None:
@@ -108,10 +108,10 @@ class Guard:
         )
 
     def check_spec(self, spec: str) -> None:
-        """Refuse a file name that leaves the model's folder by the way it is written.
+        """Refuse a file name that, as written, leaves the model's folder.
 
         Raises:
-            Refused: it is absolute outside the allowed folders, or it has "..".
+            Refused: it is absolute outside the allowed folders, or contains "..".
         """
         if ".." in Path(spec.replace("\\", "/")).parts:
             raise Refused(f"the path {spec} climbs out with ..")

@@ -10,7 +10,7 @@ from typing import Any
 
 
 def import_lazily(name: str) -> None:
-    """Put a module in place that is read only when it is used.
+    """Install a module that is imported only at its first use.
 
     xacro imports yaml at the first ``$(arg …)``, for a conversion that never comes;
     that would be a third of the child's time.

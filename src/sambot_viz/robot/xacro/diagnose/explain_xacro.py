@@ -1,6 +1,6 @@
 """Explain why xacro failed: the line, the cause and the fix.
 
-xacro reports what it could not evaluate, but not where. The child process adds the
+xacro reports what it could not evaluate, but no place. The child process adds the
 element, and the source files give the place. Most explanations are rows of a table.
 """
 
@@ -46,7 +46,7 @@ _NAMES: tuple[tuple[str, Callable[[FailedExpansion, str], Problem]], ...] = (
     (r'Unused block "([^"]*)"', unused_block),
     (r"^ArgException.*?(\S+)$", undefined_argument),
 )
-"""Reports about an unknown name, and the function that finds the one meant."""
+"""Reports about an unknown name, and the function that finds the intended one."""
 
 
 def explain_xacro(failure: XacroFailure, main_file: str) -> list[Problem]:
@@ -85,12 +85,12 @@ def explain_xacro(failure: XacroFailure, main_file: str) -> list[Problem]:
 def in_source(
     problems: Sequence[Problem], document: Element, files: Sequence[str]
 ) -> list[Problem]:
-    """Return the problems of a model that was expanded, as they are in its source.
+    """Return the problems of an expanded model, related to its source.
 
     Args:
-        problems: those of what xacro made.
-        document: the root element before xacro.
-        files: the files that xacro read, as the user would write them.
+        problems: problems of xacro's output.
+        document: root element before xacro.
+        files: files that xacro has read, as the user would write them.
     """
     exchanged = list(exchanged_arguments(SourceSet.of(files)))
     found = without_consequences(problems, exchanged)

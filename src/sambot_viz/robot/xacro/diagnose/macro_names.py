@@ -24,11 +24,11 @@ _OFFER = re.compile(r" \((?:did you mean|known:)[^)]*\)")
 def name_with_parameters(
     problems: Sequence[Problem], document: Element
 ) -> list[Problem]:
-    """Return the problems, with the names that macros should make of their parameters.
+    """Return the problems, with the names that macros should build from parameters.
 
     Args:
-        problems: those of a model that came out of xacro.
-        document: the root element before xacro.
+        problems: problems of a model that comes from xacro.
+        document: root element before xacro.
     """
     codes = (*_REPEATED, *_UNKNOWN, *_OF_VALUES, _MISSING_VALUE)
     if not any(problem.code in codes for problem in problems):
@@ -60,7 +60,7 @@ def name_with_parameters(
 
 
 def _made_by(hint: str) -> str:
-    """Return the pattern of the names that a parameter in a name makes."""
+    """Return the pattern of the names that a parameter in a name creates."""
     name = re.fullmatch('write name="(.*)"', hint)
     return _pattern(name[1]) if name else "$."
 
@@ -70,7 +70,7 @@ def _pattern(template: str) -> str:
 
 
 def _lacks(problem: Problem, pattern: str) -> bool:
-    """Return whether a problem is that a name does not exist which is to be made."""
+    """Return whether a problem reports a missing name that a macro should create."""
     if problem.code not in _UNKNOWN:
         return False
     name = _MISSING.search(problem.message)
@@ -96,7 +96,7 @@ def _repeated(problem: Problem, document: Element) -> Problem | None:
 
 
 def _with_parameter(name: str, element: Element, macro: Element) -> str | None:
-    """Return a name as the other names in the macro are written."""
+    """Return a name in the style of the other names in the macro."""
     known = parameters(macro.get("params") or "")
     bare = _NO_DOLLAR.search(name)
     if bare is not None and bare[1] in known:
@@ -111,7 +111,7 @@ def _with_parameter(name: str, element: Element, macro: Element) -> str | None:
 
 
 def _unknown(group: Sequence[Problem], document: Element) -> Problem | None:
-    """Report once what each call says of its own name."""
+    """Report once the name that each call repeats in its own problem."""
     first = group[0]
     hints = {problem.hint for problem in group}
     if len(hints) < 2 and not any(_NO_DOLLAR.search(p.message) for p in group):
@@ -151,7 +151,7 @@ def _unknown(group: Sequence[Problem], document: Element) -> Problem | None:
 
 
 def _with_expression(group: Sequence[Problem], document: Element) -> Problem | None:
-    """Report once what each call says of its own value: `<mass>${m}</mass>`."""
+    """Report once the value that each call repeats: `<mass>${m}</mass>`."""
     first, hints = group[0], [problem.hint for problem in group]
     if len(set(hints)) < 2 or len({(p.place, p.column) for p in group}) > 1:
         return None
@@ -166,7 +166,7 @@ def _with_expression(group: Sequence[Problem], document: Element) -> Problem | N
 
 
 def _with_unused(problem: Problem, document: Element) -> Problem | None:
-    """Advise the only parameter of a macro that its body does not use."""
+    """Suggest the only parameter of a macro that its body does not use."""
     for element in _at(problem, document):
         macro = _macro_around(element)
         if macro is None:
@@ -190,7 +190,7 @@ def _lacks_dollar(element: Element) -> bool:
 
 
 def _common(hints: Sequence[str], hint: str) -> int:
-    """Return the length of what hints begin with, up to the end of a tag or quote."""
+    """Return the length of the common start of hints, up to a tag's or quote's end."""
     same = takewhile(lambda column: len(set(column)) == 1, zip(*hints, strict=False))
     length = len(list(same))
     while length and hint[length - 1] not in '<>"':
@@ -204,7 +204,7 @@ def _word(hint: str, pattern: str) -> str | None:
 
 
 def _templates(macro: Element) -> Iterator[str]:
-    """Yield the names in a macro that have a parameter."""
+    """Yield the names in a macro that contain a parameter."""
     named = ("link", "joint", "frame")
     names = (e.get("name") or "" for e in macro.iter() if e.tag in named)
     return (name for name in dict.fromkeys(names) if _PARAMETER.search(name))
