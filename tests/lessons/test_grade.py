@@ -59,9 +59,7 @@ def test_the_answer_of_a_hidden_condition_is_not_said(tmp_path: Path) -> None:
     )
     found = grade(written(tmp_path, text), BASE, step="wheel")
 
-    assert "30 mm off; what is expected is said with the last hint" in (
-        found.steps[0].message
-    )
+    assert "30 mm off; the last hint says what is expected" in (found.steps[0].message)
     assert "-0.05" not in found.steps[0].message
 
 

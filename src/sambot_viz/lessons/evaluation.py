@@ -13,7 +13,7 @@ from sambot_viz.lessons.lesson import Lesson, LessonStep
 from sambot_viz.lessons.student_files import HandedIn
 from sambot_viz.lessons.work import Work
 
-_ELSE = "what is expected is said with the last hint"
+_ELSE = "the last hint says what is expected"
 
 
 @dataclass(frozen=True, slots=True)
