@@ -145,7 +145,9 @@ class ShownLesson:
     def _check(self) -> None:
         step = self.step
         try:
-            outcomes = self._read(step)
+            with self._change.lock:
+                texts = self._texts()
+            outcomes, _ = self._read(step, texts)
             with self._change(self.changed):
                 self._count(step, outcomes)
             # The last hint may say what was hidden.
@@ -162,7 +164,7 @@ class ShownLesson:
             if self._closed:
                 return
         try:
-            outcomes = self._read(step)
+            outcomes, work = self._read(step, texts)
         except Exception as error:
             self._report(error)
             return
@@ -176,11 +178,15 @@ class ShownLesson:
                 self.outcomes = outcomes
                 self.changed.touch()
         if not texts:
-            self._look_at_others(step)
+            self._look_at_others(step, {work.model: work})
 
-    def _look_at_others(self, shown: LessonStep) -> None:
-        """Count the steps that hold in the saved files, too."""
-        works: dict[Path, Work] = {}
+    def _look_at_others(self, shown: LessonStep, works: dict[Path, Work]) -> None:
+        """Count the steps that hold in the saved files, too.
+
+        Args:
+            shown: the step that is shown.
+            works: what is read already, by the model file.
+        """
         for step in self.study.lesson.steps:
             if step is shown or self.study.progress.of(step.name).passed:
                 continue
@@ -200,12 +206,12 @@ class ShownLesson:
                     self._count(step, outcomes)
                     self.also += (step,)
 
-    def _read(self, step: LessonStep) -> list[DemandResult]:
-        with self._change.lock:
-            texts = dict(self._texts())
+    def _read(
+        self, step: LessonStep, texts: Mapping[str, str]
+    ) -> tuple[list[DemandResult], Work]:
         work = self._work_of(step, texts)
         with unsaved(texts):
-            return self.study.outcomes(step, work)
+            return self.study.outcomes(step, work), work
 
     def _work_of(self, step: LessonStep, texts: Mapping[str, str]) -> Work:
         """Return what is written for a step; what the editor has loaded is taken."""

@@ -91,6 +91,7 @@ class TextLoader:
         self._shown = self._of_model(state.files.model, state.texts)
         self._loaded = state._replace(texts=self._shown)
         self._result: _Result | None = None
+        self._forgotten = 0
 
     def close(self) -> None:
         """Stop showing texts."""
@@ -131,15 +132,16 @@ class TextLoader:
         return result.robot if [*now] == [*loaded.values()] else None
 
     def forget(self, saved: Iterable[Path] | None = None) -> None:
-        """Repeat the last load.
+        """Forget the result of the last load, and of one that is running.
 
         Args:
-            saved: repeat it only if one of these files belongs to the model; None to
-                repeat it in any case.
+            saved: forget it only if one of these files belongs to the model; None to
+                forget it in any case.
         """
         files = self._files_of(self._loaded.files.model)
         if saved is None or not files.isdisjoint(saved):
             self._result = None
+            self._forgotten += 1
 
     def begin(self, *, rests: bool = True) -> None:
         """Show the wanted state soon, then check it.
@@ -176,7 +178,7 @@ class TextLoader:
         files, texts, arguments = state.files, state.texts, state.arguments
         is_own = state.is_other or bool(texts or arguments)
         trusted = self._trusts_typed or state.typed.isdisjoint(texts)
-        as_trusted = trusted and files.trusted
+        as_trusted, forgotten = trusted and files.trusted, self._forgotten
         robot, result = self.known(files.model, texts, as_trusted, arguments), None
         if robot is None:
             try:
@@ -186,7 +188,9 @@ class TextLoader:
                 robot = error
             result = _Result(robot, state, as_trusted)
         with self._change():
-            self._loaded, self._result = state, result or self._result
+            self._loaded = state
+            if result is not None and forgotten == self._forgotten:
+                self._result = result
             if isinstance(robot, RobotError):
                 self.suspects = robot.files
                 self._problems.set_text(robot.problems if is_own else None)
