@@ -14,7 +14,6 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
-from queue import SimpleQueue
 from unittest import mock
 
 from patience import patience
@@ -101,16 +100,18 @@ class Serving:
             out.close()
             err.close()
 
-    def _stop_with(
-        self, stop: threading.Event, give_up: Callable[[], object] = lambda: None
-    ) -> SimpleQueue[int]:
+    @contextmanager
+    def _until_told(
+        self, give_up: Callable[[], object] = lambda: None
+    ) -> Iterator[threading.Event]:
         """Take the place of what ends the program at a signal."""
         # Only the first thread of a process may say what a signal does.
         del give_up
+        stop = threading.Event()
         self._stop, before = stop, self._stop
         if before.is_set():
             stop.set()
-        return SimpleQueue()
+        yield stop
 
 
 @contextmanager
@@ -120,7 +121,7 @@ def serving(*words: str, cwd: Path) -> Iterator[Serving]:
     os.chdir(cwd)
     made = Serving(words)
     try:
-        with mock.patch.object(show, "stop_on_signals", made._stop_with), made:
+        with mock.patch.object(show, "until_signal", made._until_told), made:
             yield made
     finally:
         os.chdir(here)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-import threading
 from pathlib import Path
 
 from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.commands.lesson import add_track, lesson_of
 from sambot_viz.outlet import write_err
+from sambot_viz.waiting import wait_for
 
 _SECRET = "SAMBOT_VIZ_PRESENTER"
 """The environment variable with the secret of the board's address."""
@@ -21,19 +21,16 @@ def run(words: list[str]) -> int:
     folder = Path(given.dir or f"{lesson.name}-class")
     # The imports are late: --help needs no server.
     from sambot_viz.classroom.classroom import Classroom
-    from sambot_viz.commands.show import announce, stop_on_signals
+    from sambot_viz.commands.show import announce, until_signal
 
-    stop = threading.Event()
-    signals = stop_on_signals(stop)
-    try:
-        with Classroom(options, lesson, folder, given.track) as room:
-            write_err(f"sambot-viz: the students' files are in {folder}")
-            whose = ("students:  ", "teacher:   ")
-            announce(options, room.port, given.open, "/board", whose)
-            stop.wait()
-    finally:
-        # End the wait for a signal in the other thread.
-        signals.put(0)
+    with (
+        until_signal() as stop,
+        Classroom(options, lesson, folder, given.track) as room,
+    ):
+        write_err(f"sambot-viz: the students' files are in {folder}")
+        whose = ("students:  ", "teacher:   ")
+        announce(options, room.port, given.open, "/board", whose)
+        wait_for(stop)
     return 0
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shlex
-import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
@@ -14,6 +13,7 @@ from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.commands.show import parser as parser_of_show
 from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.files import reason_of
+from sambot_viz.waiting import wait_for
 
 if TYPE_CHECKING:
     from sambot_viz.lab.robots import IndexedRobot
@@ -37,18 +37,15 @@ def run(words: list[str]) -> int:
             "give --source NAME=http://127.0.0.1:8080 for each"
         )
     # The imports are late: --help needs no server.
-    from sambot_viz.commands.show import announce, stop_on_signals
+    from sambot_viz.commands.show import announce, until_signal
     from sambot_viz.lab.index import RobotIndex
 
-    stop = threading.Event()
-    signals = stop_on_signals(stop)
-    try:
-        with RobotIndex(options, given.title, robots) as index:
-            announce(options, index.port, given.open)
-            stop.wait()
-    finally:
-        # Whoever waits for a signal waits no more.
-        signals.put(0)
+    with (
+        until_signal() as stop,
+        RobotIndex(options, given.title, robots) as index,
+    ):
+        announce(options, index.port, given.open)
+        wait_for(stop)
     return 0
 
 

@@ -8,8 +8,8 @@ import os.path
 import signal
 import sys
 import threading
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Generator, Sequence
+from contextlib import contextmanager, suppress
 from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
 
@@ -138,26 +138,20 @@ def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
     # loaded, while a browser loads the page.
     from sambot_viz.server.listener import listen
 
-    stop = threading.Event()
-    signals = stop_on_signals(stop, inputs.give_up)
-    listener = listen(options)
-    try:
-        _refuse_early(inputs)
-        announce(options, listener.viser.get_port(), open_it)
-        inputs.begin()
-        from sambot_viz.commands.first_notes import write_notes
-        from sambot_viz.visualizer import Visualizer
+    with until_signal(inputs.give_up) as stop, listen(options) as listener:
+        try:
+            _refuse_early(inputs)
+            announce(options, listener.viser.get_port(), open_it)
+            inputs.begin()
+            from sambot_viz.commands.first_notes import write_notes
+            from sambot_viz.visualizer import Visualizer
 
-        with Visualizer.of_inputs(inputs, listener) as visualizer:
-            _report_start(inputs, report, visualizer.server.sessions.reference)
-            write_notes(stop, inputs, visualizer.server.sessions)
-            wait_for(stop)
-    except KeyboardInterrupt:
-        pass  # Ctrl-C while the robot was loaded ends the server like one later.
-    finally:
-        listener.close()
-        # End the wait for a signal in the other thread.
-        signals.put(0)
+            with Visualizer.of_inputs(inputs, listener) as visualizer:
+                _report_start(inputs, report, visualizer.server.sessions.reference)
+                write_notes(stop, inputs, visualizer.server.sessions)
+                wait_for(stop)
+        except KeyboardInterrupt:
+            pass  # Ctrl-C while the robot was loaded ends the server like one later.
 
 
 def _follow(options: Options, open_it: bool) -> None:
@@ -165,16 +159,13 @@ def _follow(options: Options, open_it: bool) -> None:
     from sambot_viz.server.followers.start import follow
     from sambot_viz.server.listener import listen
 
-    stop = threading.Event()
-    signals = stop_on_signals(stop)
-    with listen(options) as listener:
+    with until_signal() as stop, listen(options) as listener:
         announce(options, listener.viser.get_port(), open_it)
         end = follow(options, listener)
         try:
             wait_for(stop)
         finally:
             end()
-            signals.put(0)
 
 
 def parser() -> Parser:
@@ -352,21 +343,19 @@ def _invite(url: str, presenter_url: str | None) -> None:
     write_code(url)
 
 
-def stop_on_signals(
-    stop: threading.Event, give_up: Callable[[], object] = lambda: None
-) -> SimpleQueue[int]:
-    """End the program quietly on Ctrl-C and a service manager's stop.
+@contextmanager
+def until_signal(
+    give_up: Callable[[], object] = lambda: None,
+) -> Generator[threading.Event]:
+    """Yield an event that Ctrl-C and a service manager's stop set, instead of raising.
 
     Args:
-        stop: set at that moment.
         give_up: called at that moment, to end the wait for a robot that loads.
-
-    Returns:
-        The signals that have come.
     """
     # A handler runs in the middle of whatever this thread does, such as of waiting for
     # `stop`, whose lock is held just then: only a SimpleQueue may be used in it.
     signals: SimpleQueue[int] = SimpleQueue()
+    stop = threading.Event()
 
     def finish() -> None:
         signals.get()
@@ -377,7 +366,11 @@ def stop_on_signals(
     if threading.current_thread() is threading.main_thread():
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda number, _: signals.put(number))
-    return signals
+    try:
+        yield stop
+    finally:
+        # End the wait for a signal in the other thread.
+        signals.put(0)
 
 
 def _return_large_blocks() -> None:
