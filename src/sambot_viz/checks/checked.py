@@ -123,7 +123,7 @@ def frame_is_published(
         config: the .rviz file, if there is one.
         workspace: as for `check`.
     """
-    from sambot_viz.checks.around.published_frames import may_be_published
+    from sambot_viz.checks.around.frames.published import may_be_published
     from sambot_viz.checks.around.surroundings import Surroundings
     from sambot_viz.checks.around.workspace import Workspace
 
@@ -227,7 +227,7 @@ def _of_config(
     package: Package, around: Surroundings | None = None, path: Path | None = None
 ) -> list[Problem]:
     """Return the problems of a .rviz file of a package, by default its first."""
-    from sambot_viz.checks.around.published_frames import may_be_published
+    from sambot_viz.checks.around.frames.published import may_be_published
     from sambot_viz.checks.around.workspace import shown
     from sambot_viz.checks.config_against_robot import (
         check_config,

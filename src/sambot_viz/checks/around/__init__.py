@@ -81,8 +81,8 @@ def built_wrongly(package: Package, robot: Robot | None) -> Iterator[Problem]:
     yield from _found(OF_BUILD, around)
     if package.setup is not None and not package.is_ros1:
         # Import late: most packages have no setup.py.
-        from sambot_viz.checks.around.in_setup import IN_SETUP
-        from sambot_viz.checks.around.own_names import setup_name
+        from sambot_viz.checks.around.package_files.in_setup import IN_SETUP
+        from sambot_viz.checks.around.package_files.own_names import setup_name
 
         if any(setup_name(around)):
             # A file that is installed under another name follows from that.

@@ -8,14 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from sambot_viz.checks.around.classic_plugins import (
+from sambot_viz.checks.around.control.words import words_of_control
+from sambot_viz.checks.around.gazebo.classic_plugins import (
     unknown_libraries,
     words_of_plugins,
 )
-from sambot_viz.checks.around.control_words import words_of_control
-from sambot_viz.checks.around.drives import misspelt_elements, wrong_sides
-from sambot_viz.checks.around.joint_names import unknown_joints, unknown_references
-from sambot_viz.checks.around.sensors import (
+from sambot_viz.checks.around.gazebo.drives import misspelt_elements, wrong_sides
+from sambot_viz.checks.around.gazebo.sensors import (
     frames_of_sensors,
     lidars_of_the_other,
     misspelt_frames,
@@ -24,12 +23,13 @@ from sambot_viz.checks.around.sensors import (
     sensors_without_link,
     unknown_types,
 )
-from sambot_viz.checks.around.systems import (
+from sambot_viz.checks.around.gazebo.systems import (
     both_generations,
     malformed_values,
     unknown_systems,
 )
-from sambot_viz.checks.around.wheels import wheel_sizes
+from sambot_viz.checks.around.gazebo.wheels import wheel_sizes
+from sambot_viz.checks.around.joint_names import unknown_joints, unknown_references
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
 

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from sambot_viz.checks.around.files.gazebo import Fact, facts, plugins
+from sambot_viz.checks.around.gazebo.wheel_joints import Side, meant_wheel, side_in
 from sambot_viz.checks.around.place import where
-from sambot_viz.checks.around.wheel_joints import Side, meant_wheel, side_in
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import write, write_attribute
 from sambot_viz.errors import Fix, Place, Problem, nearest

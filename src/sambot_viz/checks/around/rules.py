@@ -8,25 +8,113 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from sambot_viz.checks.around.bridge_files import (
-    empty_parameters,
-    entries_outside_lists,
-    entries_without_type,
-    misspelt_entries,
-    second_documents,
+from sambot_viz.checks.around.control.controllers import (
+    options_without_value,
+    undeclared_controllers,
+    unknown_controllers,
 )
-from sambot_viz.checks.around.bridge_types import (
-    bridge_types,
-    topics_of_other_types,
-    unknown_bridge_types,
-    wrong_data_types,
+from sambot_viz.checks.around.control.interfaces import unfit_interfaces
+from sambot_viz.checks.around.frames.names import (
+    moved_twice,
+    odometry_frames,
+    planes,
+    two_parents,
+    unknown_frames,
+    world_frames,
 )
-from sambot_viz.checks.around.bridges import (
-    bridge_directions,
-    bridge_topics,
-    scoped_frames,
+from sambot_viz.checks.around.frames.odometry import (
+    frames_from_themselves,
+    shared_frames,
+    unpublished_odometry,
 )
-from sambot_viz.checks.around.build_file import (
+from sambot_viz.checks.around.gazebo.drives import wrong_sides_of_controllers
+from sambot_viz.checks.around.gazebo.generations import (
+    elements_of_the_other,
+    hardware_of_the_other,
+    plugins_of_the_other,
+    started_twice,
+    xacro_py,
+)
+from sambot_viz.checks.around.gazebo.wheels import wheel_sizes_of_controllers
+from sambot_viz.checks.around.gazebo.world_systems import (
+    missing_systems,
+    plugins_of_worlds,
+    unreadable_worlds,
+    values_of_worlds,
+)
+from sambot_viz.checks.around.joint_names import joints_of_controllers
+from sambot_viz.checks.around.launch_files.arguments import undeclared_arguments
+from sambot_viz.checks.around.launch_files.called_modules import called_modules
+from sambot_viz.checks.around.launch_files.calls import (
+    arguments_that_are_no_texts,
+    calls_without_argument,
+    files_without_folder,
+    paths_from_the_root,
+)
+from sambot_viz.checks.around.launch_files.choices import misspelt_truths, other_words
+from sambot_viz.checks.around.launch_files.code import (
+    empty_launch_files,
+    missing_commas,
+    missing_entries,
+    unknown_names,
+)
+from sambot_viz.checks.around.launch_files.events import (
+    handlers_that_wait,
+    periods,
+    plain_handlers,
+    texts_for_actions,
+)
+from sambot_viz.checks.around.launch_files.imports import wrong_imports
+from sambot_viz.checks.around.launch_files.includes import (
+    includes_without_argument,
+    misplaced_includes,
+)
+from sambot_viz.checks.around.launch_files.joins import (
+    joined_paths,
+    joined_texts,
+    joined_words,
+    several_words,
+)
+from sambot_viz.checks.around.launch_files.kinds import (
+    arguments_without_list,
+    lists_of_actions,
+    misspelt_time,
+    plain_conditions,
+    plain_substitutions,
+    remappings_without_pairs,
+    reversed_remappings,
+)
+from sambot_viz.checks.around.launch_files.members import (
+    misspelt_members,
+    names_before_values,
+)
+from sambot_viz.checks.around.launch_files.nodes import (
+    described_in_xml,
+    descriptions,
+    namespaces,
+    rviz_without_option,
+    state_publishers,
+)
+from sambot_viz.checks.around.launch_files.parameters import launched_parameters
+from sambot_viz.checks.around.launch_files.paths import (
+    missing_files,
+    missing_plugin_files,
+    misspelt_endings,
+    world_names,
+)
+from sambot_viz.checks.around.launch_files.programs import unknown_programs
+from sambot_viz.checks.around.launch_files.uses import (
+    bridges_as_parameters,
+    spawned_topics,
+    times_as_text,
+    unused_actions,
+)
+from sambot_viz.checks.around.launch_files.words import (
+    unknown_commands,
+    unknown_elements_of_launch,
+    unknown_keywords,
+)
+from sambot_viz.checks.around.package_files.build_file import (
     commands_after_the_end,
     folders_as_files,
     malformed_installs,
@@ -36,164 +124,89 @@ from sambot_viz.checks.around.build_file import (
     project_name,
     unreadable_cmake,
 )
-from sambot_viz.checks.around.called_modules import called_modules
-from sambot_viz.checks.around.clocks import clock_not_bridged, different_clocks
-from sambot_viz.checks.around.control_interfaces import unfit_interfaces
-from sambot_viz.checks.around.controllers import (
-    options_without_value,
-    undeclared_controllers,
-    unknown_controllers,
-)
-from sambot_viz.checks.around.dependencies import (
+from sambot_viz.checks.around.package_files.dependencies import (
     missing_dependencies,
     misspelt_dependencies,
     misspelt_packages,
     packages_of_ros1,
 )
-from sambot_viz.checks.around.display_topics import unseen_topics
-from sambot_viz.checks.around.display_words import (
-    robots_without_source,
-    switched_off,
-    unknown_frames_of_views,
-    unknown_settings,
-)
-from sambot_viz.checks.around.drives import wrong_sides_of_controllers
-from sambot_viz.checks.around.filter_inputs import inputs_without_config
-from sambot_viz.checks.around.footprint import footprints, unreadable_footprints
-from sambot_viz.checks.around.found_packages import unfound_packages
-from sambot_viz.checks.around.frame_names import (
-    moved_twice,
-    odometry_frames,
-    planes,
-    two_parents,
-    unknown_frames,
-    world_frames,
-)
-from sambot_viz.checks.around.generations import (
-    elements_of_the_other,
-    hardware_of_the_other,
-    plugins_of_the_other,
-    started_twice,
-    xacro_py,
-)
-from sambot_viz.checks.around.installed import not_installed
-from sambot_viz.checks.around.joint_names import joints_of_controllers
-from sambot_viz.checks.around.joint_states import no_joint_states, unsent_joint_states
-from sambot_viz.checks.around.launch_arguments import undeclared_arguments
-from sambot_viz.checks.around.launch_calls import (
-    arguments_that_are_no_texts,
-    calls_without_argument,
-    files_without_folder,
-    paths_from_the_root,
-)
-from sambot_viz.checks.around.launch_choices import misspelt_truths, other_words
-from sambot_viz.checks.around.launch_code import (
-    empty_launch_files,
-    missing_commas,
-    missing_entries,
-    unknown_names,
-)
-from sambot_viz.checks.around.launch_events import (
-    handlers_that_wait,
-    periods,
-    plain_handlers,
-    texts_for_actions,
-)
-from sambot_viz.checks.around.launch_imports import wrong_imports
-from sambot_viz.checks.around.launch_includes import (
-    includes_without_argument,
-    misplaced_includes,
-)
-from sambot_viz.checks.around.launch_joins import (
-    joined_paths,
-    joined_texts,
-    joined_words,
-    several_words,
-)
-from sambot_viz.checks.around.launch_kinds import (
-    arguments_without_list,
-    lists_of_actions,
-    misspelt_time,
-    plain_conditions,
-    plain_substitutions,
-    remappings_without_pairs,
-    reversed_remappings,
-)
-from sambot_viz.checks.around.launch_members import (
-    misspelt_members,
-    names_before_values,
-)
-from sambot_viz.checks.around.launch_nodes import (
-    described_in_xml,
-    descriptions,
-    namespaces,
-    rviz_without_option,
-    state_publishers,
-)
-from sambot_viz.checks.around.launch_paths import (
-    missing_files,
-    missing_plugin_files,
-    misspelt_endings,
-    world_names,
-)
-from sambot_viz.checks.around.launch_programs import unknown_programs
-from sambot_viz.checks.around.launch_uses import (
-    bridges_as_parameters,
-    spawned_topics,
-    times_as_text,
-    unused_actions,
-)
-from sambot_viz.checks.around.launch_words import (
-    unknown_commands,
-    unknown_elements_of_launch,
-    unknown_keywords,
-)
-from sambot_viz.checks.around.launched_parameters import launched_parameters
-from sambot_viz.checks.around.manifest import (
+from sambot_viz.checks.around.package_files.found_packages import unfound_packages
+from sambot_viz.checks.around.package_files.installed import not_installed
+from sambot_viz.checks.around.package_files.manifest import (
     build_types,
     incomplete_manifest,
     unreadable_manifest,
 )
-from sambot_viz.checks.around.manifest_words import (
+from sambot_viz.checks.around.package_files.manifest_words import (
     malformed_values,
     unknown_elements,
 )
-from sambot_viz.checks.around.nav2_sections import (
-    misspelt_nodes,
-    odd_clocks,
-    unread_sections,
-)
-from sambot_viz.checks.around.node_parameters import (
-    parameters_left_out,
-    unread_parameters,
-)
-from sambot_viz.checks.around.odometry import (
-    frames_from_themselves,
-    shared_frames,
-    unpublished_odometry,
-)
-from sambot_viz.checks.around.own_names import (
+from sambot_viz.checks.around.package_files.own_names import (
     misspelt_shares,
     setup_name,
     unknown_packages,
 )
-from sambot_viz.checks.around.parameter_files import unreadable_parameters
-from sambot_viz.checks.around.parameter_names import (
+from sambot_viz.checks.around.parameters.files import unreadable_parameters
+from sambot_viz.checks.around.parameters.filter_inputs import inputs_without_config
+from sambot_viz.checks.around.parameters.footprint import (
+    footprints,
+    unreadable_footprints,
+)
+from sambot_viz.checks.around.parameters.names import (
     unknown_parameters,
     unknown_plugins,
     unknown_sections,
 )
-from sambot_viz.checks.around.parameter_slips import (
+from sambot_viz.checks.around.parameters.nav2_sections import (
+    misspelt_nodes,
+    odd_clocks,
+    unread_sections,
+)
+from sambot_viz.checks.around.parameters.node_parameters import (
+    parameters_left_out,
+    unread_parameters,
+)
+from sambot_viz.checks.around.parameters.slips import (
     incomplete_nodes,
     maps_that_do_not_load,
     parameters_of_nobody,
     texts_for_values,
 )
-from sambot_viz.checks.around.parameter_values import wrong_values
-from sambot_viz.checks.around.read_topics import unknown_topics
-from sambot_viz.checks.around.shared_topics import shared_topics
-from sambot_viz.checks.around.stamped_topics import ends_of_other_types
+from sambot_viz.checks.around.parameters.values import wrong_values
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.topics.bridge_files import (
+    empty_parameters,
+    entries_outside_lists,
+    entries_without_type,
+    misspelt_entries,
+    second_documents,
+)
+from sambot_viz.checks.around.topics.bridge_types import (
+    bridge_types,
+    topics_of_other_types,
+    unknown_bridge_types,
+    wrong_data_types,
+)
+from sambot_viz.checks.around.topics.bridges import (
+    bridge_directions,
+    bridge_topics,
+    scoped_frames,
+)
+from sambot_viz.checks.around.topics.clocks import clock_not_bridged, different_clocks
+from sambot_viz.checks.around.topics.display_words import (
+    robots_without_source,
+    switched_off,
+    unknown_frames_of_views,
+    unknown_settings,
+)
+from sambot_viz.checks.around.topics.displays import unseen_topics
+from sambot_viz.checks.around.topics.joint_states import (
+    no_joint_states,
+    unsent_joint_states,
+)
+from sambot_viz.checks.around.topics.read import unknown_topics
+from sambot_viz.checks.around.topics.shared import shared_topics
+from sambot_viz.checks.around.topics.stamped import ends_of_other_types
 from sambot_viz.checks.around.unreadable import (
     joined_entries,
     missing_key,
@@ -203,13 +216,6 @@ from sambot_viz.checks.around.unreadable import (
     unreadable_python,
     unreadable_yaml,
     unreadable_yaml_launches,
-)
-from sambot_viz.checks.around.wheels import wheel_sizes_of_controllers
-from sambot_viz.checks.around.world_systems import (
-    missing_systems,
-    plugins_of_worlds,
-    unreadable_worlds,
-    values_of_worlds,
 )
 from sambot_viz.errors import Problem
 

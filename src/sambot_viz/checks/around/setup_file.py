@@ -23,8 +23,8 @@ from sambot_viz.checks.around.launching.python_parts import (
     PythonValue,
     Table,
 )
+from sambot_viz.checks.around.launching.python_values import PythonValues, Texts
 from sambot_viz.checks.around.launching.texts import LaunchTexts
-from sambot_viz.checks.around.python_values import PythonValues, Texts
 from sambot_viz.checks.launch_files import call_name, parse_python
 from sambot_viz.errors import Place
 

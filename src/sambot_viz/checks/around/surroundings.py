@@ -12,7 +12,7 @@ from sambot_viz.checks.around.files.cmake import CMakeFile
 from sambot_viz.checks.around.files.gazebo import Plugin, plugins
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile
-from sambot_viz.checks.around.launch_file import LaunchFile
+from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.running.assemble import system_of
 from sambot_viz.checks.around.running.bridge_entries import BridgeEntry
 from sambot_viz.checks.around.running.endpoints import entries_of

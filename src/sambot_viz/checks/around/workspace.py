@@ -18,7 +18,7 @@ from sambot_viz.cached import cached_property
 from sambot_viz.checks.around.files.cmake import CMakeFile
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import YamlFile, read_yaml
-from sambot_viz.checks.around.launch_file import LaunchFile, read_launch
+from sambot_viz.checks.around.launching.launch_file import LaunchFile, read_launch
 from sambot_viz.files import is_below, read_limited, relative_path
 from sambot_viz.robot.packages.package_index import PackageIndex, package_name
 from sambot_viz.robot.xml.decode import XmlFault

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from sambot_viz.checks.around.files.launch_values import SHARE
-from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.launching.actions import LaunchArgument
+from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.launching.python_parts import PythonValue, Table
 from sambot_viz.checks.around.launching.texts import UNKNOWN
 from sambot_viz.checks.around.running.assemble import system_of

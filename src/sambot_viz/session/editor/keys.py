@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 
-from sambot_viz.checks.around.known_parameters import (
+from sambot_viz.checks.around.parameters.known import (
     LISTS,
     KnownParameter,
     ParameterBlock,

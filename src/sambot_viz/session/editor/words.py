@@ -83,7 +83,7 @@ def _frames() -> tuple[str, ...]:
     """Return Gazebo's elements whose text names a link."""
     # Imported late so that the first page does not wait for the rules.
     from sambot_viz.checks.around.files.gazebo import SENSOR_FRAMES
-    from sambot_viz.checks.around.frame_names import DRIVE_BASES
+    from sambot_viz.checks.around.frames.names import DRIVE_BASES
 
     return (*SENSOR_FRAMES, *DRIVE_BASES)
 

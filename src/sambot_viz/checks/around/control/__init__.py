@@ -1,0 +1,1 @@
+"""Rules about ros2_control: its elements, interfaces and controllers."""

@@ -1,0 +1,183 @@
+"""Controllers of ros2_control: their names and classes, and who asks for them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from itertools import pairwise
+
+from sambot_viz.checks.around.files.parameters import Parameter
+from sambot_viz.checks.around.parameters.known import known_parameters
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.running.known import known_nodes
+from sambot_viz.checks.around.running.system import RunningNode
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.vocabulary import vocabulary
+from sambot_viz.edits import write
+from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
+
+_MANAGER, _TYPE = "controller_manager", ".type"
+_WITH_VALUE = frozenset(
+    """
+    -c --controller-manager -p --param-file -t --controller-type -n --namespace
+    --controller-manager-timeout --switch-timeout --service-call-timeout
+    --controller-ros-args
+    """.split()
+)
+"""Options of the spawner that have a value."""
+_OPTION = re.compile(r"--?[a-z-]*")
+_GENERIC = frozenset({"broadcaster", "controller"})
+"""Words that many names share."""
+_LIKENESS, _LIKE_CLASS = 0.9, 0.5
+
+
+def declared_controllers(around: Surroundings) -> dict[str, Parameter]:
+    """Return the controllers that a controller manager knows, by their names."""
+    return {
+        parameter.name.removesuffix(_TYPE): parameter
+        for parameter in around.parameters
+        if parameter.node.rpartition("/")[2] == _MANAGER
+        and parameter.name.endswith(_TYPE)
+    }
+
+
+def _meant(name: str, names: Iterable[str]) -> str | None:
+    """Return the name with all words of another, or the most similar one."""
+    words = set(name.split("_"))
+    for other in names:
+        if len(words) > 1 and words < set(other.split("_")):
+            return other
+    return nearest(name, names, _LIKENESS)
+
+
+def undeclared_controllers(around: Surroundings) -> Iterator[Problem]:
+    """Report controllers whose spawner or parameters use another name."""
+    declared = declared_controllers(around)
+    if not declared:
+        return
+    known = known_nodes().nodes
+    spawners = [
+        node
+        for node in around.running.started
+        if (program := known.get((node.package, node.executable)))
+        and program.does("spawns")
+    ]
+    asked = {name for node in spawners for name, _ in _asked(node)}
+    free = [name for name in declared if name not in asked]
+    sections = {key.rpartition("/")[2] for f in around.yaml_files for key in f.nodes}
+    for node in spawners:
+        words = [word for word, _ in node.placed_arguments]
+        if any(word in (None, "-p", "--param-file", "-t") for word in words):
+            # Its own parameters are unknown.
+            continue
+        for name, place in _asked(node):
+            near = _meant(name, declared) if name not in declared else None
+            if near is None and name not in declared and len(free) == 1:
+                words = {*name.split("_")} & {*free[0].split("_")} - _GENERIC
+                known = around.running.is_whole and name not in sections
+                near = free[0] if words and known else None
+            if near is not None:
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "controller-unknown",
+                    f"the spawner asks for the controller {name}, but the controller "
+                    f"manager knows {near} ({where(declared[near].place, place)}): it "
+                    "waits, and the controller does not start",
+                    write(place, name, near),
+                )
+    yield from _unread_sections(around, declared)
+
+
+def options_without_value(around: Surroundings) -> Iterator[Problem]:
+    """Report an option of a spawner whose value is missing."""
+    known = known_nodes().nodes
+    for node in around.running.started:
+        program = known.get((node.package, node.executable))
+        if program is None or not program.does("spawns"):
+            continue
+        words = [*node.placed_arguments, ("--", node.place)]
+        for (word, place), (after, _) in pairwise(words):
+            if word in _WITH_VALUE and _OPTION.fullmatch(after or ""):
+                yield Problem.at(
+                    place,
+                    "error",
+                    "controller-unknown",
+                    f"{word} of the spawner has no value after it: the spawner stops "
+                    "with an error",
+                    f"write the value after {word}, or delete {word}",
+                )
+
+
+def _asked(node: RunningNode) -> Iterator[tuple[str, Place]]:
+    """Yield the controllers that a spawner asks for, with their places."""
+    before = ""
+    for word, place in node.placed_arguments:
+        name, option, before = word or "", before, word or ""
+        if name and not name.startswith("-") and option not in _WITH_VALUE:
+            yield name, place
+
+
+def _fitting(
+    given: Iterable[str], free: Iterable[str], declared: dict[str, Parameter]
+) -> str | None:
+    """Return the only controller that knows most of these parameters."""
+    names = [name for name in given if name != "use_sim_time"]
+    found: list[str] = []
+    for other in free:
+        kind = known_parameters().classes.get(declared[other].fact.value)
+        known = [n for n in names if kind is not None and kind.block.find(n)]
+        if len(known) > 1 and len(known) >= 0.8 * len(names):
+            found.append(other)
+    return found[0] if len(found) == 1 else None
+
+
+def _unread_sections(
+    around: Surroundings, declared: dict[str, Parameter]
+) -> Iterator[Problem]:
+    """Report parameters for a controller that no controller manager knows."""
+    for file in around.yaml_files:
+        own = {n: p for n, p in declared.items() if p.place.file == file.shown}
+        sections = {key.rpartition("/")[2] for key in file.nodes}
+        free = [name for name in own if name not in sections]
+        for key in file.nodes:
+            name = key.rpartition("/")[2]
+            if name in own or name == _MANAGER or "*" in name:
+                continue
+            near = _meant(name, free) or _fitting(file.of(key), free, declared)
+            place = file.keys.get(key, file.nodes[key])
+            if near is not None:
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "controller-unknown",
+                    f"no controller is called {name}: the controller manager knows "
+                    f"{near} ({where(own[near].place, place)}), which has no "
+                    "parameters then",
+                    write(place, name, near),
+                )
+
+
+def unknown_controllers(around: Surroundings) -> Iterator[Problem]:
+    """Report classes of controllers that their package does not have."""
+    classes = vocabulary("controllers")
+    packages = {name.partition("/")[0] for name in classes}
+    for parameter in declared_controllers(around).values():
+        kind = parameter.fact.value
+        package = kind.partition("/")[0]
+        # Other packages have their own controllers.
+        right = next((name for name in packages if is_one_slip(package, name)), None)
+        alike = [name for name in classes if name.startswith(f"{right}/")]
+        near = nearest(kind, alike, _LIKE_CLASS) if kind not in classes else None
+        was = f"was:{kind}"
+        near = next((name for name, words in classes.items() if was in words), near)
+        if near is not None:
+            yield Problem.at(
+                parameter.value_place,
+                "warning",
+                "controller-unknown",
+                f"{right or package} has no controller {kind}: the controller manager "
+                "cannot load it",
+                write(parameter.value_place, kind, near),
+            )

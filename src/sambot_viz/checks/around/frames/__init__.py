@@ -1,0 +1,1 @@
+"""Rules about frames, which one node publishes and others read."""

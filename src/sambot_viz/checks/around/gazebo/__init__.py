@@ -1,0 +1,1 @@
+"""Rules about Gazebo: worlds, sensors and plugins."""

@@ -1,0 +1,1 @@
+"""Rules about launch files: Python, XML and YAML."""

@@ -1,0 +1,182 @@
+"""Check arguments of the actions in launch files, by name and by type."""
+
+from __future__ import annotations
+
+import ast
+import posixpath
+from collections.abc import Iterator, Mapping
+
+from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.launching.launch_file import NODES, LaunchFile
+from sambot_viz.checks.around.launching.python_parts import Call
+from sambot_viz.checks.around.place import rewritten
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.launch_files import call_name
+from sambot_viz.checks.vocabulary import vocabulary
+from sambot_viz.edits import write_between
+from sambot_viz.errors import Fix, Place, Problem
+
+_FILES = {"RosGzBridge": "config_file", "GzServer": "world_sdf_file"}
+"""Action → its argument that is the path of a file."""
+_NEEDED = {
+    "Command": "command",
+    "DeclareLaunchArgument": "name",
+    "ExecuteProcess": "cmd",
+    "FindPackageShare": "package",
+    "IfCondition": "predicate_expression",
+    "IncludeLaunchDescription": "launch_description_source",
+    "LaunchConfiguration": "variable_name",
+    "LifecycleNode": "executable",
+    "Node": "executable",
+    "PathJoinSubstitution": "substitutions",
+    "PythonLaunchDescriptionSource": "launch_file_path",
+    "RegisterEventHandler": "event_handler",
+    "UnlessCondition": "predicate_expression",
+}
+"""Call → its required argument."""
+_ENDINGS = (".yaml", ".yml", ".sdf", ".world", ".rviz")
+
+
+def arguments_that_are_no_texts(around: Surroundings) -> Iterator[Problem]:
+    """Report defaults and launch arguments that are not texts, and a dict of them."""
+    for launch in around.launches:
+        for call in launch.called("DeclareLaunchArgument"):
+            default = call.given("default_value", 1)
+            if default is not None:
+                yield from _no_text(default, "default_value", launch)
+        for call in launch.called("IncludeLaunchDescription"):
+            yield from _no_pairs(call.given("launch_arguments"), launch)
+
+
+def _no_text(value: ast.expr, name: str, launch: LaunchFile) -> Iterator[Problem]:
+    inner = value.operand if isinstance(value, ast.UnaryOp) else value
+    said = inner.value if isinstance(inner, ast.Constant) else ""
+    if not isinstance(said, str):
+        written = ast.unparse(value)
+        yield _stops(
+            value,
+            launch,
+            f"{name} is {written}, and launch arguments are texts",
+            f"'{written}'",
+        )
+
+
+def _no_pairs(given: ast.expr | None, launch: LaunchFile) -> Iterator[Problem]:
+    if isinstance(given, ast.Dict):
+        end = Place(
+            launch.shown, given.end_lineno or 1, (given.end_col_offset or 0) + 1
+        )
+        yield Problem.at(
+            end,
+            "error",
+            "launch-code",
+            "launch_arguments takes pairs of a name and a value, and a dict gives its "
+            "names alone: ros2 launch stops with it",
+            write_between(end, end, ".items()", "write .items() after the }"),
+        )
+        return
+    is_items = isinstance(given, ast.Call) and call_name(given.func) == "items"
+    table = given.func if is_items and isinstance(given, ast.Call) else None
+    inner = table.value if isinstance(table, ast.Attribute) else None
+    if isinstance(inner, ast.Dict):
+        for key, value in zip(inner.keys, inner.values, strict=True):
+            name = key.value if isinstance(key, ast.Constant) else "a value"
+            yield from _no_text(value, str(name), launch)
+
+
+def _stops(value: ast.expr, launch: LaunchFile, cause: str, right: str) -> Problem:
+    return Problem.at(
+        launch.place(value),
+        "error",
+        "launch-code",
+        f"{cause}: ros2 launch stops with it",
+        rewritten(value, launch.shown, right),
+    )
+
+
+def calls_without_argument(around: Surroundings) -> Iterator[Problem]:
+    """Report calls without an argument that they need."""
+    for launch in around.launches:
+        for call in launch.called(*_NEEDED):
+            name = _NEEDED[call.name]
+            node = call.node
+            words = vocabulary("launch_calls")[call.name]
+            # An unknown keyword may misspell this one.
+            others = {k.arg for k in node.keywords}.difference(words) - {None}
+            given = any(k.arg in (name, None) for k in node.keywords)
+            if given or others or (node.args and call.name not in NODES):
+                continue
+            yield Problem.at(
+                call.place,
+                "error",
+                "launch-code",
+                f"{call.name} has no {name}, which it needs: ros2 launch stops with it",
+                f"write {name} into its brackets",
+            )
+
+
+def paths_from_the_root(around: Surroundings) -> Iterator[Problem]:
+    """Report a slash before a part of a path, where os.path.join starts again."""
+    for launch in around.launches:
+        for call in launch.called("join"):
+            path = launch.values.text(call.node) or ""
+            for part in call.node.args[1:]:
+                said = part.value if isinstance(part, ast.Constant) else None
+                if not isinstance(said, str) or said[:1] != "/":
+                    continue
+                if around.text(path) is None or not path.startswith(SHARE):
+                    continue
+                place, bare = launch.place(part), said.lstrip("/")
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "launch-file-missing",
+                    f"os.path.join drops what is before {said}, because that begins "
+                    f"with a slash: the path is {said} of the computer",
+                    rewritten(
+                        part,
+                        launch.shown,
+                        f"'{bare}'",
+                        f"write '{bare}' without the slash",
+                    ),
+                )
+
+
+def files_without_folder(around: Surroundings) -> Iterator[Problem]:
+    """Report files that ros2 launch looks for in the working folder.
+
+    Only where the launch file takes other files from the package.
+    """
+    has: Mapping[str, str] = {
+        posixpath.basename(path): path for path in around.files.ending(*_ENDINGS)
+    }
+    for launch in around.launches:
+        # A launch file that names all files this way runs in the folder of the package.
+        for call in launch.calls if launch.paths else ():
+            for given in _paths(call, launch):
+                said = launch.values.text(given) or ""
+                path = has.get(posixpath.basename(said))
+                begins = said[:1] in ("/", "~", "$") or ":" in said
+                if path is None or begins or not path.endswith(said):
+                    continue
+                there = "" if path == said else f" as {path}"
+                share = f"get_package_share_directory('{around.files.name}')"
+                place = launch.place(given)
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "launch-file-missing",
+                    f"{said} is looked for in the folder where ros2 launch is run, "
+                    f"and the package has it{there}",
+                    Fix(f"write os.path.join({share}, '{path}')"),
+                )
+
+
+def _paths(call: Call, launch: LaunchFile) -> Iterator[ast.expr]:
+    given = call.given(_FILES[call.name]) if call.name in _FILES else None
+    if given is not None:
+        yield given
+    if call.name == "Node":
+        for _, node in call.listing("parameters").items:
+            if isinstance(node, ast.Constant):
+                yield node

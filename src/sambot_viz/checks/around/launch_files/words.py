@@ -1,0 +1,152 @@
+"""Report unknown words in launch files: arguments, elements and attributes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from functools import partial
+
+from sambot_viz.checks.around.launching.launch_file import LaunchFile
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.words import WordKind, WrittenWord, misspelt
+from sambot_viz.edits import rename_attribute, rename_element, write, write_between
+from sambot_viz.errors import Fix, Place, Problem
+from sambot_viz.robot.xml.element import Element
+
+_STOPS = "ros2 launch stops with it"
+_ARGUMENT = WordKind(
+    "launch_calls",
+    "launch-code",
+    f"{{owner}} has no argument {{wrong}}, but {{right}}: {_STOPS}",
+)
+_ATTRIBUTE = WordKind(
+    "launch_elements",
+    "launch-code",
+    f"<{{owner}}> has no attribute {{wrong}}, but {{right}}: {_STOPS}",
+)
+_ELEMENT = WordKind(
+    "launch_elements",
+    "launch-code",
+    f"there is no <{{wrong}}> in <{{owner}}>, but <{{right}}>: {_STOPS}",
+)
+_SUBSTITUTION = WordKind(
+    "launch_elements",
+    "launch-code",
+    f"there is no substitution $({{wrong}} …), but $({{right}} …): {_STOPS}",
+)
+_COMMAND = WordKind(
+    "ros2_commands",
+    "launch-code",
+    "{owner} has no command {wrong}, but {right}: it stops with an error",
+)
+_DOLLAR = re.compile(r"\$\(\s*([\w-]+)")
+_OLD = frozenset({"type", "rosparam", "$find", "$arg"})
+_NEW = frozenset({"exec", "let", "$var", "$find-pkg-share", "composable_node"})
+"""Words that exist only in launch files of ROS 1, or only in those of ROS 2."""
+
+
+def unknown_keywords(around: Surroundings) -> Iterator[Problem]:
+    """Report misspelt arguments of an action."""
+    for launch in around.launches:
+        yield from misspelt(_arguments(launch), _ARGUMENT)
+
+
+def _arguments(launch: LaunchFile) -> Iterator[WrittenWord]:
+    for call in launch.calls:
+        given = {k.arg for k in call.node.keywords if k.arg}
+        for each in call.node.keywords:
+            if each.arg:
+                place = Place(launch.shown, each.lineno, each.col_offset + 1)
+                fix = partial(_replaced, place, each.arg)
+                yield WrittenWord(call.name, each.arg, given, place, fix)
+
+
+def _replaced(place: Place, wrong: str, right: str) -> Fix:
+    end = Place(place.file, place.line, (place.column or 1) + len(wrong))
+    return write_between(place, end, right, f"write {right}")
+
+
+def unknown_commands(around: Surroundings) -> Iterator[Problem]:
+    """Report misspelt commands of ros2."""
+    for launch in around.launches:
+        for call in launch.called("ExecuteProcess", "ExecuteLocal"):
+            owner = ""
+            for item, node in call.listing("cmd").items:
+                for word in (launch.values.said(item) or "$").split():
+                    fix = partial(write, launch.place(node), word)
+                    shown = owner.replace("_", " ")
+                    place = launch.place(node)
+                    written = WrittenWord(owner, word, (), place, fix, shown)
+                    yield from misspelt([written], _COMMAND)
+                    owner = f"{owner}_{word}".strip("_")
+
+
+def unknown_elements_of_launch(around: Surroundings) -> Iterator[Problem]:
+    """Report words of XML and YAML launch files that launch does not know."""
+    for package in around.packages:
+        for root in package.frontends:
+            elements = list(root.iter())
+            used = {word for element in elements for word in _used(element)}
+            if _OLD & used and not _NEW & used:
+                yield Problem.at(
+                    root.place,
+                    "info",
+                    "launch-code",
+                    "this launch file is written for ROS 1, which has other elements "
+                    f"and attributes: {_STOPS}",
+                    "write it for ROS 2, or delete it",
+                )
+                continue
+            is_xml = not root.place.file.endswith((".yaml", ".yml"))
+            for element in elements:
+                yield from misspelt(_attributes(element, is_xml), _ATTRIBUTE)
+                yield from misspelt(_substitutions(element), _SUBSTITUTION)
+                yield from misspelt(_children(element, is_xml), _ELEMENT)
+
+
+def _used(element: Element) -> Iterator[str]:
+    yield element.tag
+    if element.tag != "param":
+        yield from element.attributes
+    for value in element.attributes.values():
+        yield from (f"${name}" for name in _DOLLAR.findall(value))
+
+
+def _attributes(element: Element, is_xml: bool) -> Iterator[WrittenWord]:
+    given, place = element.attributes, element.place
+    owner = element.tag
+    if element.parent is not None and element.parent.tag == "include":
+        owner = "keep"
+    for name, value in given.items():
+
+        def renamed(right: str, name: str = name, value: str = value) -> Fix:
+            hint = f"write {right}"
+            if is_xml:
+                return rename_attribute(place, name, right, value, f'{hint}="{value}"')
+            return write(place, name, right, hint=hint)
+
+        yield WrittenWord(owner, name, given, place, renamed)
+
+
+def _substitutions(element: Element) -> Iterator[WrittenWord]:
+    for value in element.attributes.values():
+        for name in dict.fromkeys(_DOLLAR.findall(value)):
+
+            def renamed(right: str, name: str = name) -> Fix:
+                hint = f"write $({right} …)"
+                return write(element.place, f"$({name}", f"$({right}", hint=hint)
+
+            yield WrittenWord("$", name, (), element.place, renamed)
+
+
+def _children(element: Element, is_xml: bool) -> Iterator[WrittenWord]:
+    for child in element.children:
+        place, tag = child.place, child.tag
+        fix: Callable[[str], Fix] = partial(write, place, tag)
+        if is_xml:
+            fix = partial(_element, place, tag)
+        yield WrittenWord(f"{element.tag}/", tag, (), place, fix, element.tag)
+
+
+def _element(place: Place, wrong: str, right: str) -> Fix:
+    return rename_element(place, wrong, right, f"write <{right}>")

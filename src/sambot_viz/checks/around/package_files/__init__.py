@@ -1,0 +1,1 @@
+"""Rules about package.xml, CMakeLists.txt, setup.py and setup.cfg."""

@@ -1,0 +1,1 @@
+"""Rules about parameter files and the parameters of well-known nodes."""

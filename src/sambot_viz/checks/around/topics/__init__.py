@@ -1,0 +1,1 @@
+"""Rules about topics, which one node publishes and others read, also over bridges."""
