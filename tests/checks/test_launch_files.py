@@ -116,6 +116,8 @@ def test_of_two_names_of_the_package_one_is_wrong(checked: Checked) -> None:
         ("cart_descriptions", "cart_descriptions"),
         ("cart_description_moveit_config", ""),
         ("cart_controller", ""),
+        ("cart_bringup2", ""),
+        ("cart_funmap", ""),
     ],
 )
 def test_another_package_of_the_robot_is_no_misspelt_one(

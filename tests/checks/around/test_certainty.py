@@ -664,3 +664,51 @@ def test_of_two_robots_each_has_the_parameters_that_fit(copied: Copied) -> None:
     assert "footprint-size" in codes(package)
     (package / "urdf" / "truck.urdf").write_text(OTHER)
     assert "footprint-size" not in codes(package)
+
+
+DECLARED = 'DeclareLaunchArgument("use_sim_time", default_value="True")'
+LET = '<let name="own_flag" value="-s" if="$(var flag)"/>'
+
+
+def test_another_module_may_declare_the_arguments(copied: Copied) -> None:
+    package = copied("gz")
+    edit(package / LAUNCH, DECLARED, "Arguments.sim_time()")
+    assert "launch-argument-unknown" in codes(package)
+    edit(package / LAUNCH, "import os\n", "import os\nfrom arm import Arguments\n")
+    assert codes(package) == []
+
+
+def test_a_variable_does_not_stand_for_an_argument_in_its_own_value(
+    copied: Copied,
+) -> None:
+    package = copied("gz")
+    launch = f'<launch><arg name="map" default="a"/>{LET}</launch>'
+    (package / "launch" / "gz.launch.xml").write_text(launch)
+    (found,) = check(package / MODEL)
+    assert (found.code, found.severity) == ("launch-argument-unknown", "warning")
+    assert "own_flag" not in found.message + found.hint
+
+
+def test_files_of_an_installed_folder_lie_beside_the_manifest(copied: Copied) -> None:
+    package = copied("gz")
+    include = '<include file="$(find-pkg-share cart_description)/inner/x.launch.xml"/>'
+    (package / "launch" / "inner").mkdir()
+    (package / "launch" / "inner" / "x.launch.xml").write_text("<launch/>")
+    (package / "launch" / "all.launch.xml").write_text(f"<launch>{include}</launch>")
+    assert codes(package) == ["launch-file-missing"]
+    edit(package / "CMakeLists.txt", "urdf launch", "launch/ urdf launch")
+    assert codes(package) == []
+
+
+def test_the_joint_state_publisher_takes_any_rate(copied: Copied) -> None:
+    package = copied("gz")
+    node = (
+        'Node(package="joint_state_publisher", executable="joint_state_publisher", '
+        'parameters=[{"rate": 30.0}])'
+    )
+    edit(
+        package / LAUNCH,
+        "            spawn,",
+        f"            spawn,\n            {node},",
+    )
+    assert "parameter-type" not in codes(package)

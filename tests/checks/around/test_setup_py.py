@@ -283,6 +283,15 @@ def test_a_mistake_is_found_at_its_line_and_its_fix_leaves_nothing(
     assert found(package) == []
 
 
+def test_setuptools_reads_the_programs_of_a_list_in_the_list(package: Path) -> None:
+    programs = (
+        "'drive = cart_description.drive:main',\n"
+        "            'stop = cart_description.stop:main',\n"
+    )
+    edit(package, (SETUP, programs, f"({programs.rstrip()}),\n"))
+    assert check(package / MODEL) == []
+
+
 def test_the_file_that_names_the_package_is_missing(package: Path) -> None:
     marker = package / "resource" / "cart_description"
     other = marker.rename(package / "resource" / "cart")

@@ -79,8 +79,16 @@ def test_an_sdf_file_that_is_misspelt_on_the_command_line_is_offered(
         find(folder / "my_bto.sdf")
 
 
-def test_a_file_with_only_macros_is_not_the_model(tmp_path: Path) -> None:
-    files = {"urdf/common.xacro": MACRO, "robots/r.urdf.xacro": LINKS}
+NESTED = XACRO.format(
+    '<xacro:macro name="arm" params="p"><xacro:include filename="r.xacro"/>'
+    '<xacro:macro name="part"><link name="a"/></xacro:macro>'
+    '<link name="b"/></xacro:macro>'
+)
+
+
+@pytest.mark.parametrize("macros", [MACRO, NESTED])
+def test_a_file_with_only_macros_is_not_the_model(tmp_path: Path, macros: str) -> None:
+    files = {"urdf/common.urdf.xacro": macros, "robots/r.urdf.xacro": LINKS}
     assert model_in(package(tmp_path, **files)) == "robots/r.urdf.xacro"
 
 

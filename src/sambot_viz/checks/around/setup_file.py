@@ -206,7 +206,7 @@ class SetupFile:
         table = self.values.of(given)
         for pair in table.pairs if isinstance(table, Table) else ():
             if pair.key == "console_scripts":
-                return self.values.listed(pair.value)
+                return self.values.listed(_flat(pair.value))
         return Texts((), complete=given is None)
 
     @cached_property
@@ -218,6 +218,22 @@ class SetupFile:
             if text is not None
         )
         return tuple(EntryPoint(m[1], m[2], m[3], n) for n, m in matches if m)
+
+
+def _flat(value: PythonValue) -> PythonValue:
+    """Return a list with the items of lists in it, as setuptools reads programs."""
+    if not isinstance(value, Listing):
+        return value
+    items: list[tuple[PythonValue, ast.expr]] = []
+    complete = value.complete
+    for item, node in value.items:
+        inner = _flat(item)
+        if isinstance(inner, Listing):
+            items += inner.items
+            complete &= inner.complete
+        else:
+            items.append((inner, node))
+    return Listing(tuple(items), complete)
 
 
 def read_setup(

@@ -35,7 +35,9 @@ _TESTS = frozenset({"test", "tests"})
 _SUFFIXES = ("", "_description", "_support", "_urdf", "_robot", "_model", "_pkg")
 
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
-_MACRO = re.compile(r"<xacro:macro\b[^>]*(?<!/)>.*?</xacro:macro\s*>", re.DOTALL)
+_INNERMOST_MACRO = re.compile(
+    r"<xacro:macro\b[^>]*(?<!/)>(?:(?!<xacro:macro\b).)*?</xacro:macro\s*>", re.DOTALL
+)
 _INCLUDE = re.compile(r"<(?:xacro:)?include\b[^>]*?filename\s*=\s*[\"']([^\"']+)")
 _LINK = re.compile(r"<link\b")
 _WORLD = re.compile(r"<world\b")
@@ -58,18 +60,20 @@ class _ModelFile(NamedTuple):
         path: the file.
         has_links: whether it has links, or calls that may create some.
         includes: files that it includes, as written.
+        includes_outside: whether it includes one of them outside its macros.
         may_be_robot: whether it is neither a world nor MoveIt's description of a robot.
     """
 
     path: Path
     has_links: bool
     includes: tuple[str, ...]
+    includes_outside: bool
     may_be_robot: bool = True
 
     @property
     def builds_links(self) -> bool:
         """Return whether it has links, or calls or includes that may create some."""
-        return self.may_be_robot and (self.has_links or bool(self.includes))
+        return self.may_be_robot and (self.has_links or self.includes_outside)
 
 
 @dataclass(slots=True)
@@ -233,11 +237,20 @@ def _text_of(path: Path) -> str:
 def _look_at(path: Path) -> _ModelFile:
     text = _text_of(path)
     includes = tuple(_INCLUDE.findall(text))
-    outside = _MACRO.sub("", text)
+    outside = _outside_macros(text)
     has_links = bool(_LINK.search(outside) or _CALL.search(outside))
     has_links |= bool(includes and _UNKNOWN.search(outside))
     other = _WORLD.search(outside) or path.name.endswith(_SEMANTIC)
-    return _ModelFile(path, has_links, includes, not other)
+    outer = bool(_INCLUDE.search(outside))
+    return _ModelFile(path, has_links, includes, outer, not other)
+
+
+def _outside_macros(text: str) -> str:
+    """Return a text without its macros, which may have macros in them."""
+    removed = 1
+    while removed:
+        text, removed = _INNERMOST_MACRO.subn("", text)
+    return text
 
 
 def _is_included(path: Path, include: str, names: Sequence[str]) -> bool:

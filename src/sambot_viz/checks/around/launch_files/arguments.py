@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
@@ -19,6 +20,11 @@ from sambot_viz.robot.xml.element import Element
 _SETTING = ("SetLaunchConfiguration", "OpaqueFunction", "GroupAction")
 _VARIABLE = re.compile(r"\$\(var\s+([\w.-]+)\s*\)")
 _LIKENESS = 0.65
+_DECLARE_NONE = sys.stdlib_module_names | {
+    *("ament_index_python", "launch", "launch_ros", "launch_testing", "launch_xml"),
+    *("launch_yaml", "nav2_common", "ros_gz_bridge", "ros_gz_sim", "xacro", "yaml"),
+}
+"""Modules whose functions declare no launch arguments by themselves."""
 
 
 class _File(NamedTuple):
@@ -27,6 +33,7 @@ class _File(NamedTuple):
     Attributes:
         declared: name → where.
         used: name and place of each use without a default value.
+        made_from: the name of a variable → the names in its own value.
         given: the names of those of the included files.
         written: the syntax of a use, with {} for the name.
         certain: no other action sets one.
@@ -35,6 +42,7 @@ class _File(NamedTuple):
 
     declared: Mapping[str, Place]
     used: Sequence[tuple[str, Place]]
+    made_from: Mapping[str, Sequence[str]]
     given: frozenset[str]
     written: str
     certain: bool
@@ -66,7 +74,8 @@ def declared_in(package: Package) -> dict[str, Mapping[str, Place]]:
 
 
 def _undeclared(name: str, place: Place, file: _File) -> Problem:
-    near = nearest(name, file.declared, _LIKENESS)
+    made = {own for own, parts in file.made_from.items() if name in parts}
+    near = nearest(name, [own for own in file.declared if own not in made], _LIKENESS)
     cause = f"the launch argument {name} is not declared"
     if near is None:
         # An including file may set it; a file that declares others declares all of its
@@ -110,9 +119,37 @@ def _of_python(launch: LaunchFile) -> _File:
         for node in texts
         if isinstance(node, ast.Constant) and isinstance(node.value, str)
     ).union(declared if includes else ())
-    certain = "" not in declared and not any(launch.called(*_SETTING))
+    certain = (
+        "" not in declared
+        and not any(launch.called(*_SETTING))
+        and not _calls_others(launch.tree)
+    )
     return _File(
-        declared, used, given, "LaunchConfiguration('{}')", certain, bool(includes)
+        declared, used, {}, given, "LaunchConfiguration('{}')", certain, bool(includes)
+    )
+
+
+def _calls_others(tree: ast.Module) -> bool:
+    """Return whether a file calls what another module defines: maybe a declaration."""
+    others: set[str] = set()
+    for node in ast.walk(tree):
+        match node:
+            case ast.ImportFrom(module=module, names=names):
+                modules = [module or ""] * len(names)
+            case ast.Import(names=names):
+                modules = [alias.name for alias in names]
+            case _:
+                continue
+        others |= {
+            alias.asname or alias.name.partition(".")[0]
+            for alias, module in zip(names, modules, strict=True)
+            if module.partition(".")[0] not in _DECLARE_NONE
+        }
+    return any(
+        isinstance(part, ast.Name) and part.id in others
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call)
+        for part in ast.walk(node.func)
     )
 
 
@@ -137,4 +174,9 @@ def _of_frontend(root: Element) -> _File:
     includes = any(element.tag == "include" for element in elements)
     given = frozenset(named if includes else ())
     certain = not any("$" in name for name in declared)
-    return _File(declared, used, given, "$(var {})", certain, includes)
+    made_from = {
+        name: _VARIABLE.findall(" ".join(element.attributes.values()))
+        for name, element in named.items()
+        if element.tag == "let"
+    }
+    return _File(declared, used, made_from, given, "$(var {})", certain, includes)

@@ -167,6 +167,9 @@ def _is_missing(below: str, package: Package) -> bool:
     if not slash:
         names = [path.rpartition("/")[2] for path in paths]
         return names.count(below) == 1 and not _installs_beside_manifest(package)
+    inner = any(path.endswith(f"/{below}") for path in paths)
+    if inner and _installs_beside_manifest(package):
+        return False
     if (package.folder / below).exists():
         # Such as a mesh or a test: the package does not list them.
         return False

@@ -173,8 +173,15 @@ def _dependencies(manifest: Element | None) -> set[str]:
 def _alike(name: str, package: str) -> bool:
     """Return whether one package name looks like a misspelling of the other."""
     words, others = (re.split(r"[_\-]", text) for text in (name, package))
-    if words[-1] in _PARTS and words[-1] != others[-1]:
+    if words[-1].rstrip("0123456789") in _PARTS and words[-1] != others[-1]:
         # Two packages of one robot; the other one may be elsewhere.
         return False
-    ratio = difflib.SequenceMatcher(None, name, package).ratio()
-    return ratio > 0.8 or (words[0] == others[0] and ratio > 0.5)
+    if words[:-1] == others[:-1]:
+        # Only the last word tells packages of one robot apart.
+        return _ratio(words[-1], others[-1]) > 0.5
+    shorter = min(len(words), len(others))
+    return words[:shorter] == others[:shorter] or _ratio(name, package) > 0.8
+
+
+def _ratio(text: str, other: str) -> float:
+    return difflib.SequenceMatcher(None, text, other).ratio()
