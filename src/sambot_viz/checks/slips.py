@@ -10,7 +10,7 @@ from sambot_viz.checks.lengths import written_lengths
 from sambot_viz.checks.rule import Subject, number
 from sambot_viz.edits import together, write_attribute
 from sambot_viz.errors import Fix, Place, Problem
-from sambot_viz.robot.parts import Joint, Language, Limit, Link, MeshFile, Origin
+from sambot_viz.robot.parts import Box, Joint, Language, Limit, Link, MeshFile, Origin
 from sambot_viz.robot.slips.units import usual_degrees
 
 _FULL_TURN = 2 * math.pi + 1e-3
@@ -124,9 +124,11 @@ def sizes_not_positive(subject: Subject) -> Iterator[Problem]:
             continue
         kind = "zero" if not any(wrong) else "negative"
         written = " ".join(number(v) for v in values)
+        # A box with one zero may be a plate without thickness, such as a floor.
+        plate = isinstance(shape.geometry, Box) and wrong == [0.0]
         yield Problem.at(
             shape.geometry_place or shape.place,
-            "warning",
+            "info" if plate else "warning",
             "size-not-positive",
             f"link {link.name}: the {what} ({written}) contains a {kind} number, so "
             "nothing useful can be drawn",

@@ -220,3 +220,23 @@ def test_an_interface_twice_was_meant_to_be_the_one_that_others_have(
     assert problem.hint == 'write name="velocity"'
     fixed = apply_edits(problem.edits, model.read_text())
     assert fixed == _controlled(both, both, both)
+
+
+INTERFACES = '<command_interface name="position"/><state_interface name="position"/>'
+
+
+@pytest.mark.parametrize(("sides", "found"), [("LR", 0), ("L", 2)])
+def test_controllers_of_one_robot_are_not_for_a_model_with_two(
+    package: Path, sides: str, found: int
+) -> None:
+    joints = "".join(
+        f'<joint name="{side}_{name}">{INTERFACES}</joint>'
+        for side in sides
+        for name in ("shoulder", "elbow")
+    )
+    arms = f'<ros2_control name="arms" type="system">{joints}</ros2_control></robot>'
+    (package / "r.urdf").write_text(MODEL.replace("</robot>", arms))
+    mine = YAML.replace("      - arm_joint", "      - shoulder\n      - elbow")
+    (package / "control.yaml").write_text(mine)
+    codes = [problem.code for problem in check(package / "r.urdf")]
+    assert codes.count("control-interface") == found

@@ -556,3 +556,18 @@ def test_each_variant_of_a_model_that_launch_files_start_is_checked(
         assert problem.edits
     asked = check(package, xacro_args={"sim": "false"})
     assert not any(p.code.startswith("joint-") for p in asked)
+
+
+@pytest.mark.parametrize(("given", "found"), [("' kind:=', 'a'", False), ("''", True)])
+def test_the_root_tag_has_only_the_arguments_of_the_launch_file(
+    given: str, found: bool, tmp_path: Path
+) -> None:
+    """Xacro evaluates it before the default values in it."""
+    launch = STARTING.format(given)
+    package = _package(tmp_path / "a_description", launch__a_launch_py=launch)
+    model = '<xacro:arg name="kind" default="a"/><link name="base_link"/>'
+    _write(package, "urdf/a.urdf.xacro", XACRO.format(f'name="$(arg kind)">{model}'))
+
+    codes = {problem.code for problem in check(package)}
+
+    assert ("xacro-argument-missing" in codes) is found

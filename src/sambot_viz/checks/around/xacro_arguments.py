@@ -19,6 +19,8 @@ from sambot_viz.checks.around.workspace import Package
 _MOST = 3
 """Maximum number of variants of a model besides the first."""
 _DECLARED = re.compile(r"<xacro:arg\s[^>]*>")
+_ROOT = re.compile(r"<robot\s[^>]*>")
+_USED = re.compile(r"\$\(arg\s+([\w.-]+)\s*\)")
 _ATTRIBUTE = re.compile(r"""\b(name|default)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 
 
@@ -27,7 +29,8 @@ def launched_arguments(
 ) -> tuple[dict[str, str], ...]:
     """Return the xacro arguments from launch files that open a model.
 
-    Only known values that differ from the default.
+    Only known values that differ from the default, or that the root tag uses: xacro
+    evaluates it before any default.
 
     Returns:
         First the values common to all of them, with which the check loads the model;
@@ -47,21 +50,35 @@ def launched_arguments(
                 given.append(dict(_arguments(command)))
                 starts.add(node.starts)
     defaults = _defaults(packages) if given else {}
-    changed = [dict(_changes(each, defaults, packages)) for each in given]
+    of_root = _used_in_root(model, packages if given else ())
+    kept = [dict(_values(each, packages)) for each in given]
+    changed = [
+        {n: v for n, v in each.items() if n in of_root or defaults.get(n, v) != v}
+        for each in kept
+    ]
     first = dict(changed[0]) if "yes" in starts else {}
     for each in changed:
         first = {n: v for n, v in first.items() if each.get(n) == v}
     return tuple([first, *(each for each in changed if each != first)][: _MOST + 1])
 
 
-def _changes(
-    given: Mapping[str, str], defaults: Mapping[str, str], packages: Sequence[Package]
+def _values(
+    given: Mapping[str, str], packages: Sequence[Package]
 ) -> Iterator[tuple[str, str]]:
-    """Yield the known arguments that differ from the defaults of a model."""
+    """Yield the arguments with a known value."""
     for name, value in given.items():
         path = None if UNKNOWN in value else _path(value, packages)
-        if path is not None and defaults.get(name, path) != path:
+        if path is not None:
             yield name, path
+
+
+def _used_in_root(model: Path, packages: Sequence[Package]) -> frozenset[str]:
+    for package in packages:
+        if model.is_relative_to(package.folder):
+            path = model.relative_to(package.folder).as_posix()
+            root = _ROOT.search(package.text(path) or "")
+            return frozenset[str](_USED.findall(root[0]) if root else ())
+    return frozenset[str]()
 
 
 def _said(package: Package) -> Iterator[str]:

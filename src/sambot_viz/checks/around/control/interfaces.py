@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import yaml
@@ -54,7 +54,11 @@ def unfit_interfaces(around: Surroundings) -> Iterator[Problem]:
         for joint in part.find_all("joint") if part.tag == "ros2_control" else ():
             joints.setdefault(joint.get("name") or "", []).append(joint)
     done: set[tuple[Place | str, str]] = set()
-    for need in _needs(around) if joints else ():
+    needs = list(_needs(around)) if joints else []
+    single = _of_a_single_robot(needs, joints)
+    for need in needs:
+        if need.controller in single:
+            continue
         name = need.joint.value
         if name not in joints:
             if need.parameter in _COVERED and name not in around.robot.joints:
@@ -68,6 +72,21 @@ def unfit_interfaces(around: Surroundings) -> Iterator[Problem]:
         if mark not in done and "$" not in name + need.name:
             done.add(mark)
             yield problem
+
+
+def _of_a_single_robot(
+    needs: Sequence[_NeededInterface], joints: Mapping[str, list[Element]]
+) -> set[str]:
+    """Return the controllers of one robot where the model has two, with prefixes."""
+    named: dict[str, set[str]] = {}
+    for need in needs:
+        named.setdefault(need.controller, set()).add(need.joint.value)
+    return {
+        controller
+        for controller, names in named.items()
+        if len(names) > 1
+        and all(sum(j.endswith(f"_{name}") for j in joints) > 1 for name in names)
+    }
 
 
 def _has(joints: list[Element], need: _NeededInterface) -> bool:
