@@ -455,6 +455,13 @@ def test_a_robot_is_shown_without_what_data_and_files_need():
     assert len(drawn) < 10
 
 
+def test_a_follower_is_started_without_what_a_robot_needs():
+    script = "import sambot_viz.server.listener, sambot_viz.server.followers.follower"
+    loaded = loaded_by(script)
+    robot = ("robot", "rviz", "displays", "session", "topics", "publishing", "meshes")
+    assert {"yaml", *(f"sambot_viz.{name}" for name in robot)} & loaded == set()
+
+
 @pytest.mark.parametrize(
     "name", ["sam_bot.urdf.xacro", "sam_bot_collision.urdf.xacro", "mbot.urdf.xacro"]
 )

@@ -64,7 +64,7 @@ NO_LIMITS = {
         joints/animation.py LONGEST
         publishing/dead_mans_switch.py LONGEST_STOP
         server/followers/follower.py LONGEST_ANSWER
-        server/followers/start.py _LONGEST_END
+        server/followers/link.py _LONGEST_END
         server/watch.py LONGEST_WAIT _LONGEST_CLOSE
         session/data/player.py LONGEST_STEP
         session/robot/motion.py LONGEST_STEP

@@ -10,7 +10,7 @@ from zenoh_peer import ZenohPeer
 
 from sambot_viz import Visualizer
 from sambot_viz.options import Options
-from sambot_viz.server.followers.start import follow
+from sambot_viz.server.followers.follower import follow
 from sambot_viz.server.listener import listen
 
 pytestmark = [pytest.mark.browser, pytest.mark.view]

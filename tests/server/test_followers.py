@@ -27,8 +27,7 @@ from zenoh_peer import ZenohPeer
 from sambot_viz import UsageError, Visualizer
 from sambot_viz.options import Options
 from sambot_viz.server.channel import SUBPROTOCOL
-from sambot_viz.server.followers.follower import MOST_BEHIND
-from sambot_viz.server.followers.start import follow
+from sambot_viz.server.followers.follower import MOST_BEHIND, follow
 from sambot_viz.server.followers.wire import Label
 from sambot_viz.server.listener import Listener, listen
 from sambot_viz.sources.broadcast_place import origin_of, parse_place

@@ -156,7 +156,7 @@ def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
 
 def _follow(options: Options, open_it: bool) -> None:
     """Show what another server broadcasts until Ctrl-C."""
-    from sambot_viz.server.followers.start import follow
+    from sambot_viz.server.followers.follower import follow
     from sambot_viz.server.listener import listen
 
     with until_signal() as stop, listen(options) as listener:

@@ -116,7 +116,7 @@ class Server:
         self._viser.on_client_disconnect(clients.leave)
         if options.broadcast is not None:
             # Few servers have followers.
-            from sambot_viz.server.followers.start import broadcast
+            from sambot_viz.server.followers.broadcast import broadcast
 
             self._end_broadcast = broadcast(
                 options, self._listener, outgoing, self.clients

@@ -8,7 +8,7 @@ from collections.abc import Callable, Coroutine
 from contextlib import suppress
 from typing import Any
 
-from sambot_viz.outlet import logger
+from sambot_viz.options import Options
 from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.server.channel import Channel
 from sambot_viz.server.followers import link
@@ -19,10 +19,15 @@ from sambot_viz.server.followers.wire import (
     Part,
     Snapshot,
 )
+from sambot_viz.server.listener import Listener, page_url, public_url, reachable_at
 from sambot_viz.server.outgoing.outbox import Outbox
 from sambot_viz.server.protection.inbound_filter import ClientHandler
 from sambot_viz.server.tickets import Channels
-from sambot_viz.sources.broadcast_place import BroadcastPlace, origin_of
+from sambot_viz.sources.broadcast_place import (
+    BroadcastPlace,
+    origin_of,
+    parse_place,
+)
 from sambot_viz.sources.zenoh.broadcast_session import BroadcastSession, FramePublisher
 from sambot_viz.sources.zenoh.session import ZenohDeclaration
 
@@ -30,9 +35,40 @@ SNAPSHOT_PERIOD = 1.0
 """Shortest time between two snapshots, each for all questions since the last [s]."""
 _LOOK_AGAIN = 2.0
 """Time between two checks whether another origin has the same name [s]."""
-_log = logger(__name__)
 
 Answer = Callable[[bytes], object]
+
+
+def broadcast(
+    options: Options,
+    listener: Listener,
+    outgoing: Outbox,
+    handler: ClientHandler,
+) -> Callable[[], None]:
+    """Broadcast the content of a server from now on.
+
+    Args:
+        options: options of the server, with the place.
+        listener: the server.
+        outgoing: packed frames of its scene.
+        handler: provides the rows of its clients.
+
+    Returns:
+        A function that stops the broadcast.
+    """
+    assert options.broadcast is not None
+    place = parse_place(options.broadcast, "--broadcast")
+    url = _url(options, listener.viser.get_port())
+    made = Broadcast(place, url, outgoing, handler, listener.channels)
+    return link.run(listener.viser.get_event_loop(), made.run)
+
+
+def _url(options: Options, port: int) -> str:
+    """Return the address of a server's page, without secrets; "" for none."""
+    plain = options.having(token=None, presenter=None)
+    if plain.unix_socket is not None:
+        return public_url(plain) or ""
+    return public_url(plain) or page_url(plain, reachable_at(plain.host), port)
 
 
 class Broadcast:
@@ -68,7 +104,7 @@ class Broadcast:
         self._session: BroadcastSession | None = None
         self._held: list[ZenohDeclaration] = []
         self._others = set[str]()
-        self._said = ""
+        self._trouble = link.Trouble(f"Broadcast to {place.label}")
         self._rows: ClientRows | None = None
         self._asked: list[Answer] = []
         self._answering: asyncio.Task[None] | None = None
@@ -140,7 +176,7 @@ class Broadcast:
         """Stop publishing until a router is available again."""
         self._stop()
         self._session = None
-        self._say(f"Nothing is broadcast: {why}")
+        self._trouble.set(f"Nothing is broadcast: {why}")
 
     def _take_origin(self, token: str, is_there: bool) -> None:
         origin, _ = origin_of(token)
@@ -162,7 +198,7 @@ class Broadcast:
             return
         if self._others:
             place = self._place.label
-            self._say(
+            self._trouble.set(
                 f"Nothing is broadcast: another server broadcasts to {place} already, "
                 "and it stays; end that one, or give this one another name"
             )
@@ -172,7 +208,7 @@ class Broadcast:
             session.on_question(self._place.snapshot, self._take_question),
             session.declare_token(self._place.token(self.id, VERSION)),
         ]
-        self._say("")
+        self._trouble.set("")
 
     def _stop(self) -> None:
         held, self._held, self._publisher = self._held, [], None
@@ -180,13 +216,6 @@ class Broadcast:
             # A closed session has already withdrawn them.
             with suppress(Exception):
                 one.undeclare()
-
-    def _say(self, words: str) -> None:
-        if words and words != self._said:
-            _log.warning(words)
-        elif self._said and not words:
-            _log.warning(f"Broadcast to {self._place.label}")
-        self._said = words
 
     # Snapshots
 

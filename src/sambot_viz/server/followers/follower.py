@@ -13,6 +13,7 @@ from collections import deque
 from collections.abc import Callable
 
 from sambot_viz import viser_private
+from sambot_viz.options import Options
 from sambot_viz.outlet import logger
 from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.server.followers import link
@@ -26,7 +27,11 @@ from sambot_viz.server.followers.wire import (
 )
 from sambot_viz.server.listener import Listener
 from sambot_viz.server.protection.client_messages import CameraReport
-from sambot_viz.sources.broadcast_place import BroadcastPlace, origin_of
+from sambot_viz.sources.broadcast_place import (
+    BroadcastPlace,
+    origin_of,
+    parse_place,
+)
 from sambot_viz.sources.zenoh.broadcast_session import BroadcastSession
 
 ASK_PERIOD = 1.0
@@ -41,6 +46,14 @@ it, the follower skips to the current state."""
 MOST_WAITING = 1000
 """Limit for frames that wait for a snapshot; beyond it, the follower asks again."""
 _log = logger(__name__)
+
+
+def follow(options: Options, listener: Listener) -> Callable[[], None]:
+    """Show another server's broadcast in a server; return a function that stops it."""
+    assert options.follow is not None
+    made = Relay(parse_place(options.follow, "--follow"), listener)
+    listener.give(made)
+    return link.run(listener.viser.get_event_loop(), made.run)
 
 
 class Relay:
@@ -65,7 +78,7 @@ class Relay:
         self._origin, self._number, self._url = "", 0, ""
         self._waiting: deque[tuple[Label, bytes]] = deque()
         self._is_asking, self._next_ask = False, 0.0
-        self._trouble = ""
+        self._trouble = link.Trouble(f"Following {place.label}")
 
     async def run(self) -> None:
         """Follow until cancelled."""
@@ -114,11 +127,7 @@ class Relay:
             self._ask()
 
     def _say(self, trouble: str) -> None:
-        if trouble and trouble != self._trouble:
-            _log.warning(trouble)
-        elif self._trouble and not trouble:
-            _log.warning(f"Following {self._place.label}")
-        self._trouble = trouble
+        self._trouble.set(trouble)
         self._rows.say(self._url, trouble)
 
     # Snapshots

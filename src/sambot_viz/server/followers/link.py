@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import asyncio
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
+from concurrent.futures import TimeoutError as FutureTimeoutError
 from contextlib import suppress
 from functools import partial
-from typing import Protocol
+from typing import Any, Protocol
 
 from sambot_viz.errors import SourceError
+from sambot_viz.outlet import logger
 from sambot_viz.sources.live.address import Address
 from sambot_viz.sources.websocket.trouble import explain
 from sambot_viz.sources.zenoh.broadcast_session import BroadcastSession
@@ -21,6 +23,9 @@ from connecting all at once."""
 
 END_TIME = 1.0
 """Longest wait, at the end, for a connection that is opening [s]."""
+_LONGEST_END = 2.0
+"""Longest wait for the end of a task on an event loop [s]."""
+_log = logger(__name__)
 
 
 class End(Protocol):
@@ -33,6 +38,27 @@ class End(Protocol):
     def cut(self, why: str) -> None:
         """Handle the loss of the connection, and its reason."""
         ...
+
+
+class Trouble:
+    """Log what keeps one end from working when it changes, and when it is over.
+
+    Args:
+        over: what to log when there is no trouble after some.
+
+    Attributes:
+        words: the trouble; "" for none.
+    """
+
+    def __init__(self, over: str) -> None:
+        self.words = ""
+        self._over = over
+
+    def set(self, words: str) -> None:
+        """Replace the trouble; "" for none."""
+        if words != self.words:
+            _log.warning(words or self._over)
+        self.words = words
 
 
 async def hold(address: Address, end: End) -> None:
@@ -77,3 +103,26 @@ async def _hold_once(address: Address, end: End) -> None:
 def _close(opened: asyncio.Future[BroadcastSession]) -> None:
     if not opened.cancelled() and opened.exception() is None:
         opened.result().close()
+
+
+def run(
+    loop: asyncio.AbstractEventLoop, main: Callable[[], Coroutine[Any, Any, None]]
+) -> Callable[[], None]:
+    """Start a task on the event loop of a server; return a function that ends it."""
+    tasks: list[asyncio.Task[None]] = []
+
+    def begin() -> None:
+        tasks.append(loop.create_task(main()))
+
+    async def end() -> None:
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+    def stop() -> None:
+        if not loop.is_closed():
+            with suppress(FutureTimeoutError):
+                asyncio.run_coroutine_threadsafe(end(), loop).result(_LONGEST_END)
+
+    loop.call_soon_threadsafe(begin)
+    return stop
