@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 from sambot_viz.sources.zenoh.readings import (
     OnSample,
@@ -24,6 +24,9 @@ class FramePublisher(Protocol):
 
 class BroadcastSession(ZenohSession):
     """A session with publishers, and questions that are answered with bytes."""
+
+    # Memory that zenoh shares between programs of a machine takes 17 MB in each.
+    settings: ClassVar = {"transport/shared_memory/enabled": False}
 
     def frames(self, key: str) -> FramePublisher:
         """Begin to publish on a key."""

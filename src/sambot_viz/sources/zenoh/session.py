@@ -9,10 +9,10 @@ from __future__ import annotations
 import json
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from itertools import count
-from typing import Any, Protocol, TypeVar
+from typing import Any, ClassVar, Protocol, TypeVar
 
 from sambot_viz import limits
 from sambot_viz.errors import SourceError
@@ -57,7 +57,10 @@ class ZenohSession:
     Attributes:
         name: of the session, as tokens say it.
         router: identifies what it is connected to; "" when that has ended already.
+        settings: of zenoh, besides those of all sessions.
     """
+
+    settings: ClassVar[Mapping[str, object]] = {}
 
     def __init__(self, session: Any, post: Post, on_lost: Callable[[], object]) -> None:
         from zenoh import SampleKind
@@ -250,7 +253,7 @@ def open_session(
     import zenoh
 
     config: Any = zenoh.Config()
-    for name, value in _settings(address).items():
+    for name, value in {**_settings(address), **made.settings}.items():
         config.insert_json5(name, json.dumps(value))
     try:
         return made(zenoh.open(config), post, on_lost)
