@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 import zenoh
+from a_certificate import self_signed, tls_settings
 from inside import session_of
 from live_peers import WAIT
 from page_rows import PageRows, decode
@@ -351,9 +352,40 @@ def test_a_follower_waits_for_an_origin_and_for_a_router(
 ) -> None:
     router.stop()
     client = protocol(follower().port)
-    client.wait_until(lambda: "router" in said(client), WAIT)
+    start = "start the router there with `zenohd`"
+    client.wait_until(lambda: start in said(client), WAIT)
     router.start()
     client.wait_until(lambda: "Nobody broadcasts" in said(client), WAIT)
+
+
+def test_a_router_behind_tls_is_trusted_by_its_certificate(
+    make_viz: Callable[..., Visualizer],
+    protocol: Callable[..., ProtocolClient],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    key, certificate = self_signed(tmp_path)
+    router = ZenohPeer(
+        protocol="tls", has_nodes=False, **tls_settings(key, certificate)
+    )
+    plain = f"{router.uri}/arm"
+    secure = plain.replace("zenoh:", "zenoh+tls:")
+    wrong = make_viz(broadcast=plain)
+    options = Options(follow=secure, port=0)
+    with listen(options) as listener:
+        stop = follow(options, listener)
+        client = protocol(listener.viser.get_port())
+        # What both say to write is right.
+        client.wait_until(lambda: f"--follow {plain}" in said(client), WAIT)
+        until(lambda: f"If it speaks TLS, --broadcast {secure}" in caplog.text, WAIT)
+        wrong.stop()
+        monkeypatch.setenv("SSL_CERT_FILE", str(certificate))
+        origin = make_viz(broadcast=secure)
+        client.wait_until(lambda: follows(client), WAIT)
+        origin.stop()
+        stop()
+    router.stop()
 
 
 def test_a_follower_asks_for_its_token_as_every_server_does(

@@ -5,13 +5,13 @@ The peer plays nodes with rmw_zenoh_cpp; see zenoh_peer.py.
 
 from __future__ import annotations
 
-import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from a_certificate import self_signed, tls_settings
 from live_peers import STRING, WAIT, FoxglovePeer, Inbox, cdr_string, eventually
 from lower_limit import lower
 from patience import until
@@ -304,31 +304,13 @@ def test_a_server_of_another_kind_is_named(opened: Open) -> None:
 def test_a_router_behind_tls_is_trusted_by_its_certificate(
     opened: Open, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    openssl = shutil.which("openssl")
-    if openssl is None:
-        pytest.skip("needs openssl, which is not installed")
-    words = "req -x509 -newkey rsa:2048 -nodes -days 2 -subj /CN=robot -keyout key.pem"
-    more = "-addext subjectAltName=IP:127.0.0.1 -out cert.pem"
-    # zenoh takes no certificate of a router that may sign others.
-    more += " -addext basicConstraints=critical,CA:FALSE"
-    subprocess.run(
-        [openssl, *words.split(), *more.split()],
-        cwd=tmp_path,
-        check=True,
-        capture_output=True,
-    )
-    robot = ZenohPeer(
-        protocol="tls",
-        **{
-            "transport/link/tls/listen_private_key": str(tmp_path / "key.pem"),
-            "transport/link/tls/listen_certificate": str(tmp_path / "cert.pem"),
-        },
-    )
+    key, certificate = self_signed(tmp_path)
+    robot = ZenohPeer(protocol="tls", **tls_settings(key, certificate))
     robot.advertise("/chatter")
     uri = robot.uri.replace("zenoh:", "zenoh+tls:")
     source = opened(uri)
     until(lambda: "SSL_CERT_FILE" in source.status.sentence, WAIT)
-    monkeypatch.setenv("SSL_CERT_FILE", str(tmp_path / "cert.pem"))
+    monkeypatch.setenv("SSL_CERT_FILE", str(certificate))
     trusting = opened(uri)
     until(lambda: "/chatter" in trusting.topics(), WAIT)
     robot.stop()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sambot_viz.errors import UsageError
 from sambot_viz.sources.live.address import Address
@@ -19,27 +19,25 @@ class BroadcastPlace:
     """Where something is broadcast.
 
     Attributes:
-        address: of the router.
-        name: of the broadcast.
+        address: of the router, with the name of the broadcast.
     """
 
     address: Address
-    name: str
 
     @property
     def label(self) -> str:
         """The place, for people: "lab:7447/arm"."""
-        return f"{self.address.label}/{self.name}"
+        return f"{self.address.label}/{self.address.name}"
 
     @property
     def frames(self) -> str:
         """The key on which the frames are published."""
-        return f"sambot-viz/{self.name}/frames"
+        return f"sambot-viz/{self.address.name}/frames"
 
     @property
     def snapshot(self) -> str:
         """The key that is asked for a snapshot."""
-        return f"sambot-viz/{self.name}/snapshot"
+        return f"sambot-viz/{self.address.name}/snapshot"
 
     @property
     def origins(self) -> str:
@@ -48,7 +46,7 @@ class BroadcastPlace:
 
     def token(self, origin: str, version: str) -> str:
         """Return the key of the token of an origin of a version."""
-        return f"sambot-viz/{self.name}/origin/{origin}/{version}"
+        return f"sambot-viz/{self.address.name}/origin/{origin}/{version}"
 
 
 def parse_place(uri: str, flag: str) -> BroadcastPlace:
@@ -65,7 +63,8 @@ def parse_place(uri: str, flag: str) -> BroadcastPlace:
             f"{flag} {text(uri)}: this is not a router of zenoh and a name of letters, "
             f"digits, '.', '_' and '-'; write {flag} {_EXAMPLE}"
         )
-    return BroadcastPlace(live_address(f"{scheme}://{server}"), name)
+    address = live_address(f"{scheme}://{server}")
+    return BroadcastPlace(replace(address, flag=flag, name=name))
 
 
 def origin_of(token: str) -> tuple[str, str]:

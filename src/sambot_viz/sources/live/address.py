@@ -39,6 +39,8 @@ class Address:
         domain: ROS's domain id, where the address says it.
         interface: of the network, for DDS; "" for the usual one.
         peers: machines with participants of DDS; none for all that multicast reaches.
+        flag: option that the address was written for; messages name it.
+        name: name of a broadcast, which follows the place; "" of others.
     """
 
     protocol: str
@@ -49,6 +51,8 @@ class Address:
     domain: int = 0
     interface: str = ""
     peers: tuple[str, ...] = ()
+    flag: str = "--source"
+    name: str = ""
 
     @property
     def label(self) -> str:
@@ -63,11 +67,12 @@ class Address:
     def with_protocol(self, protocol: str) -> str:
         """Return what to write for the same place and another protocol."""
         tls = f"+{_TLS[protocol]}" if self.is_secure else ""
-        return f"{protocol}{tls}://{self.label}"
+        return f"{protocol}{tls}://{self.label}{f'/{self.name}' if self.name else ''}"
 
     def with_tls(self, is_secure: bool) -> str:
-        """Return what to write for the same place with TLS, or without."""
-        return replace(self, is_secure=is_secure).with_protocol(self.protocol)
+        """Return the option for the same place with TLS, or without."""
+        other = replace(self, is_secure=is_secure)
+        return f"{self.flag} {other.with_protocol(self.protocol)}"
 
 
 def without_secrets(uri: str) -> str:

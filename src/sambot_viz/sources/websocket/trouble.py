@@ -24,6 +24,8 @@ START = {
     "zenoh": "`ros2 run rmw_zenoh_cpp rmw_zenohd`",
 }
 """Protocol → the command that starts its server on the robot."""
+_ROUTER = "`zenohd`"
+"""The command that starts a router for broadcasts, which needs no ROS."""
 _WHAT = {"foxglove": "bridge", "rosbridge": "bridge", "zenoh": "router"}
 
 _NO_WAY = {errno.EHOSTUNREACH, errno.ENETUNREACH, errno.EHOSTDOWN, errno.ENETDOWN}
@@ -135,7 +137,7 @@ def _tls(error: Exception, address: Address) -> str:
             "with SSL_CERT_FILE=FILE, the certificate of who has signed it"
         )
     if "WRONG_VERSION" in words or "UNEXPECTED_EOF" in words or "RECORD" in words:
-        return f"{place} does not speak TLS: --source {address.with_tls(False)}"
+        return f"{place} does not speak TLS: {address.with_tls(False)}"
     return f"No TLS connection to {place}: {text(words, 160)}"
 
 
@@ -144,7 +146,7 @@ def _not_a_websocket(address: Address) -> str:
     tls = (
         ""
         if address.is_secure
-        else f"; if it does so with TLS, --source {address.with_tls(True)}"
+        else f"; if it does so with TLS, {address.with_tls(True)}"
     )
     return (
         f"{place} does not speak websocket: "
@@ -153,7 +155,8 @@ def _not_a_websocket(address: Address) -> str:
 
 
 def _unreachable(error: OSError, address: Address) -> str:
-    place, start = address.label, START[address.protocol]
+    place = address.label
+    start = _ROUTER if address.name else START[address.protocol]
     what = _WHAT[address.protocol]
     # When a name has several addresses, asyncio joins their errors to a text.
     codes = {int(code) for code in re.findall(r"\[Errno (\d+)\]", str(error))}
@@ -170,7 +173,7 @@ def _unreachable(error: OSError, address: Address) -> str:
             return (
                 f"{place} breaks off while it connects: does it speak TLS? Start the "
                 f"bridge with {_WITH_TLS[address.protocol]}, or leave TLS out: "
-                f"--source {address.with_tls(False)}"
+                f"{address.with_tls(False)}"
             )
         return f"{place} breaks off while it connects: is {start} still running there?"
     if isinstance(error, TimeoutError) or errno.ETIMEDOUT in codes:

@@ -281,9 +281,9 @@ def _refused(address: Address) -> str:
         return (
             f"No TLS connection to the zenoh router at {place}: start sambot-viz with "
             f"{_CERTIFICATES}=FILE, the certificate of who has signed the router's; or "
-            f"leave TLS out: --source {address.with_tls(False)}"
+            f"leave TLS out: {address.with_tls(False)}"
         )
     return (
-        f"{place} does not speak zenoh: is {address.port} the port of rmw_zenohd? If "
-        f"it speaks TLS, --source {address.with_tls(True)}"
+        f"{place} does not speak zenoh: is {address.port} the port of its router? If "
+        f"it speaks TLS, {address.with_tls(True)}"
     )
