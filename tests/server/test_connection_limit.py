@@ -11,6 +11,7 @@ from urllib.request import urlopen
 import pytest
 import viser
 from lower_limit import lower
+from patience import until
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
@@ -59,11 +60,24 @@ def test_connections_that_say_nothing_leave_file_numbers_for_the_program(
     port: int, caplog: pytest.LogCaptureFixture
 ) -> None:
     silent = [socket.create_connection(("127.0.0.1", port), 10.0) for _ in range(10)]
-    with socket.create_connection(("127.0.0.1", port), 10.0) as one_more:
-        try:
-            assert one_more.recv(1) == b""
-        except ConnectionResetError:
-            pass
+    address = f"http://127.0.0.1:{port}"
+    with ExitStack() as stack:
+        for _ in range(100):
+            one_more = socket.create_connection(("127.0.0.1", port), 10.0)
+            stack.enter_context(one_more)
+        # Those that say nothing give way to those that ask.
+        with urlopen(f"{address}/healthz") as answer:
+            assert answer.status == 200
+        with pytest.raises(HTTPError) as no_page:
+            urlopen(address)
+        with no_page.value as answer:
+            assert (answer.code, answer.headers["Refresh"]) == (503, "10")
+            assert "has 10 connections already" in answer.read().decode()
+        with pytest.raises(InvalidStatus) as refused:
+            page(port)
+        assert refused.value.response.status_code == 503
+        silent.pop().close()
+        stack.enter_context(until(lambda: page(port), not_yet=InvalidStatus))
     for connection in silent:
         connection.sendall(b"no request\r\n\r\n")
         assert connection.recv(1) == b""

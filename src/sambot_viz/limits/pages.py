@@ -14,7 +14,7 @@ CONNECTIONS = LimitRow(
     "connections of one server",
     600,
     "",
-    "the next one is closed at once",
+    "the next one is told to come again later; probes of the state are answered",
 )
 PAGE_MESSAGE = LimitRow(
     "a message of a page",

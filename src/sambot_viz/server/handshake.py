@@ -148,6 +148,8 @@ def checked(
             path = without_base(request.path, options.base_path)
             if (answered := readiness(request, path, state)) is not None:
                 return answered
+            if not limiter.may_stay(connection):
+                return limiter.surplus()
             refused = access.refusal(request, options) or check_token.refusal(request)
             if refused:
                 return refused

@@ -53,7 +53,7 @@ class Connection(ServerConnection):
     """A connection with a count, an inbound filter and writes in pieces.
 
     Args:
-        limiter: counts the connection; one too many closes at once.
+        limiter: counts the connection; one too many gets one answer at most.
         traffic: counts messages to the client.
 
     Attributes:
@@ -136,8 +136,7 @@ class Connection(ServerConnection):
         """Count a new connection."""
         super().connection_made(transport)
         self._traffic.clients.add(self.writer)
-        if not self._limiter.admit(self):
-            self.transport.abort()
+        self._limiter.admit(self)
 
     def data_received(self, data: bytes) -> None:
         """Read on, but not forever from a connection that must close."""
