@@ -119,12 +119,25 @@ test("a page that is left asks no more", async () => {
   assert.deepEqual(server.asked, []);
 });
 
-test("pages of one server come to another one at different moments", async () => {
-  const random = mock.method(Math, "random", () => 0.5);
-  const { server, retries, lose } = page();
-  retries.spread = 900;
-  lose();
-  await pass(3);
-  assert.deepEqual(server.asked, [0.6, 2.1]);
+test("a thousand pages of one server come to another one at different moments", async () => {
+  let chance = 0;
+  const random = mock.method(Math, "random", () => (chance = (chance + 0.618034) % 1));
+  const pages = Array.from({ length: 1000 }, page);
+  for (const { retries, lose, server } of pages) {
+    retries.spread = 900;
+    server.status = 503;
+    lose();
+  }
+  await pass(4);
+  // Those that found no place come again, spread as well.
+  for (const time of [0, 1]) {
+    const tenths = new Map();
+    for (const { server } of pages) {
+      const tenth = Math.floor(10 * server.asked[time]);
+      tenths.set(tenth, (tenths.get(tenth) || 0) + 1);
+    }
+    assert.ok(Math.max(...tenths.values()) < 150, JSON.stringify([...tenths]));
+  }
+  assert.ok(pages.every(({ server }) => server.asked[0] <= 1 && server.asked[1] <= 3));
   random.mock.restore();
 });
