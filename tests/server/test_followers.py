@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import re
 import sys
@@ -29,9 +30,13 @@ from sambot_viz import UsageError, Visualizer
 from sambot_viz.options import Options
 from sambot_viz.server.channel import SUBPROTOCOL
 from sambot_viz.server.followers.follower import MOST_BEHIND, follow
-from sambot_viz.server.followers.wire import Label
+from sambot_viz.server.followers.wire import VERSION, Label, Snapshot
 from sambot_viz.server.listener import Listener, listen
-from sambot_viz.sources.broadcast_place import origin_of, parse_place
+from sambot_viz.sources.broadcast_place import (
+    BroadcastPlace,
+    origin_of,
+    parse_place,
+)
 
 LEFT = "drivewhl_l_joint"
 MOVED = ("SetOrientationMessage", "SetPositionMessage")
@@ -121,6 +126,13 @@ def said(client: ProtocolClient) -> str:
     """What a page says that has nothing else yet."""
     with suppress(StopIteration):
         return trouble(client)
+    return ""
+
+
+def leads_to(client: ProtocolClient) -> str:
+    """The address of the origin in a page; "" when it has none yet."""
+    with suppress(StopIteration):
+        return state(client)["origin"]
     return ""
 
 
@@ -243,6 +255,56 @@ def test_a_lost_frame_is_made_good_by_a_snapshot_that_disturbs_no_page(
     client.wait_until(lambda: client.rows[f"j/{LEFT}"]["value"] == 1.0, WAIT)
     client.wait_until(lambda: len(moved_since(client, mark)) == 1)
     assert not [m.type for m in client.since(mark) if "props" in m.fields]
+
+
+ORIGIN = "abc"
+ROWS = b'{"of": "session", "all": true, "panels": {"p": [{"id": "p/a", "value": 1}]}}'
+
+
+def origin_of_bytes(
+    router: ZenohPeer, place: str, *replies: bytes | None
+) -> BroadcastPlace:
+    """An origin that answers with these before it does with a snapshot."""
+    parsed = parse_place(place, "--follow")
+    whole = Snapshot(ORIGIN, 1, "http://origin", [], [ROWS]).packed()
+    router.answer(parsed.snapshot, itertools.chain(replies, itertools.repeat(whole)))
+    router.declare(parsed.token(ORIGIN, VERSION))
+    return parsed
+
+
+@pytest.mark.parametrize(
+    "lost", [None, b"", Snapshot("a", 1, "", [], []).packed()[:-1]]
+)
+def test_a_snapshot_that_is_lost_on_its_way_is_asked_for_again(
+    lost: bytes | None,
+    router: ZenohPeer,
+    place: str,
+    follower: Callable[..., FollowerServer],
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    origin_of_bytes(router, place, lost)
+    client = protocol(follower().port)
+    client.wait_until(lambda: leads_to(client) == "http://origin", WAIT)
+    assert trouble(client) == "" and client.rows["p/a"]["value"] == 1
+
+
+@pytest.mark.parametrize("days", [-1, 1])
+def test_the_clocks_of_the_machines_may_differ(
+    days: int,
+    router: ZenohPeer,
+    place: str,
+    follower: Callable[..., FollowerServer],
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    parsed = origin_of_bytes(router, place)
+    client = protocol(follower().port)
+    client.wait_until(lambda: leads_to(client) == "http://origin", WAIT)
+    for number, value in ((2, 5), (3, 7)):
+        row = b'{"of": "session", "rows": {"p/a": {"value": %d}}}' % value
+        label = Label(ORIGIN, number, "rows").packed()
+        router.put(parsed.frames, row, label, days_ahead=days if number == 2 else 0)
+    client.wait_until(lambda: client.rows["p/a"]["value"] == 7, WAIT)
+    assert trouble(client) == ""
 
 
 def test_a_slow_follower_gets_the_newest_and_no_queue(

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import json
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from datetime import timedelta
 from functools import partial
 from typing import Any
 
@@ -209,9 +210,30 @@ class ZenohPeer(LivePeer):
         replies = self._session.liveliness().get(key, timeout=WAIT)
         return [str(reply.ok.key_expr) for reply in replies]
 
-    def put(self, key: str, payload: bytes, attachment: bytes) -> None:
-        """Publish something, whatever it is."""
-        self._session.put(key, payload, attachment=attachment)
+    def put(
+        self, key: str, payload: bytes, attachment: bytes, days_ahead: int = 0
+    ) -> None:
+        """Publish something, whatever it is.
+
+        Args:
+            key: on which.
+            payload: what.
+            attachment: what goes with it.
+            days_ahead: of the clock of who publishes it.
+        """
+        now = self._session.new_timestamp()
+        at = zenoh.Timestamp(now.get_time() + timedelta(days_ahead), now.get_id())
+        self._session.put(key, payload, attachment=attachment, timestamp=at)
+
+    def answer(self, key: str, replies: Iterator[bytes | None]) -> None:
+        """Answer questions of a key with the next reply each; None for none."""
+
+        def take(query: Any) -> None:
+            with query:
+                if (content := next(replies)) is not None:
+                    query.reply(key, content)
+
+        self._serving.append(self._session.declare_queryable(key, take, complete=True))
 
     def offer(self, topic: str, kind: str, definition: str = "") -> None:
         """Begin to publish a topic of any type."""
