@@ -43,6 +43,7 @@ MAY = {
     "support/crowd.py": "measures, for benchmarks",
     "support/data_loads.py": "measures, for benchmarks",
     "support/docs_parts/make_pictures.py": "films a page at a rate",
+    "support/reconnecting.py": "measures, for benchmarks",
     "support/steps.py": "measures, for benchmarks",
     "support/usage.py": "measures, for benchmarks",
     "support/slow_line.py": "is a slow line",
