@@ -59,7 +59,7 @@ NO_LIMITS = {
         export/recorded_scene.py LONGEST_READ
         export/view_picture.py LONGEST_WAIT
         files.py _LONGEST_SAVE
-        options.py LONGEST_SLOT
+        options.py LONGEST_SLOT LONGEST_PART
         robot/fork_server.py _LONGEST_END
         joints/animation.py LONGEST
         publishing/dead_mans_switch.py LONGEST_STOP
@@ -70,7 +70,9 @@ NO_LIMITS = {
         session/robot/motion.py LONGEST_STEP
         session/robot/motion_recorder.py LONGEST
         session/worker.py LONGEST_STOP
-        sources/recording_thread.py LONGEST_PERIOD LONGEST_STOP
+        sources/follow/followed_recording.py LONGEST_GAP
+        sources/recording_file.py LONGEST_PERIOD
+        sources/recording_thread.py LONGEST_STOP
         sources/rosapi.py LONGEST_ANSWER
         sources/live/service_calls.py LONGEST_ANSWER
         sources/live/assets.py LONGEST_FETCH

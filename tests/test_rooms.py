@@ -254,6 +254,7 @@ EXCEPTIONS: Mapping[str, str] = {
     "sources/websocket/trouble.py": "socket ssl",
     "sources/live/live_source.py": "asyncio concurrent threading",
     "sources/websocket/websocket_source.py": "asyncio",
+    "sources/follow/followed_recording.py": "asyncio",
     "sources/dds/dds_source.py": "asyncio",
     "sources/dds/ends.py": "asyncio",
     "sources/dds/participant.py": "asyncio threading",

@@ -192,6 +192,16 @@ def is_web_address(words: object) -> bool:
         return False
 
 
+def is_web_folder(words: object) -> bool:
+    """Return whether something is the address of a folder on a web server."""
+    if not isinstance(words, str) or not words.lower().startswith(_WEB):
+        return False
+    try:
+        return urlsplit(words).path.endswith("/")
+    except ValueError:
+        return False
+
+
 def name_of_address(address: str) -> str:
     """Return the name of a file on a web server; without one, the server's."""
     parts = urlsplit(address)

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from sambot_viz.rviz.yaml.yaml_document import Document
     from sambot_viz.rviz.yaml.yaml_nodes import Map
     from sambot_viz.sources.given import GivenSource
+    from sambot_viz.sources.recorder import RecordingPlace
     from sambot_viz.sources.source import Source
     from sambot_viz.topics.source_robot import SourceRobot
 
@@ -39,12 +40,12 @@ def open_moved_by(options: Options) -> SourceRobot | None:
     from sambot_viz.topics.source_robot import SourceRobot
 
     lives = [_live(given) for given in options.live_sources]
-    folder = _checked_folder(options)
+    place = _checked_place(options)
     recorded = [given for given in options.sources if not given.is_live]
     sources: list[Source] = [] if not recorded else [_recordings(recorded)]
     sources.append(lives[0] if len(lives) == 1 else JoinedSources(lives))
     source = sources[0] if len(sources) == 1 else JoinedSources(sources)
-    return SourceRobot(source, _types(options), at=options.at, recordings=folder)
+    return SourceRobot(source, _types(options), at=options.at, recordings=place)
 
 
 def open_recorded(
@@ -101,20 +102,21 @@ def _live(given: GivenSource) -> Source:
     return PrefixedSource(source, given.prefix, given.remaps)
 
 
-def _checked_folder(options: Options) -> Path | None:
-    """Return the folder for recordings of the page's users, if they may record.
+def _checked_place(options: Options) -> RecordingPlace | None:
+    """Return where recordings of the page's users go, if they may record.
 
     Raises:
         UsageError: a live robot cannot be recorded where the options say.
     """
-    from sambot_viz.sources.recorder import check_file, check_folder
+    from sambot_viz.sources.recorder import RecordingPlace, check_file, check_folder
 
-    folder = None if options.record_dir is None else Path(options.record_dir)
-    if folder is not None:
-        check_folder(folder)
+    place = None
+    if options.record_dir is not None:
+        place = RecordingPlace(Path(options.record_dir), options.max_bag_duration)
+        check_folder(place.folder)
     if options.record is not None:
         check_file(Path(options.record))
-    return folder
+    return place
 
 
 def _recordings(given: Sequence[GivenSource]) -> Source:

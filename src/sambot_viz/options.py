@@ -51,6 +51,8 @@ Look = Literal["rviz", "studio"]
 LogFormat = Literal["text", "json"]
 SHORTEST_SLOT, LONGEST_SLOT = 10.0, 24 * 3600.0
 """How long a turn in control may be [s]."""
+SHORTEST_PART, LONGEST_PART = 1.0, 3600.0
+"""How long each file of a recording in several files may be [s]."""
 LATEST = 1e9
 """No recording is longer, about thirty years; nanoseconds fit in 64 bits [s]."""
 
@@ -135,8 +137,9 @@ class Options:
     source: Sequence[str] | str = option(
         (),
         "what moves the robot: a recording (an mcap, db3 or bag file, or a folder with "
-        f"them{AGAIN}), https://…/run.mcap on a web server, {LIVE_SOURCES} of a live "
-        "robot; NAME=URI gives it a name",
+        f"them{AGAIN}), https://…/run.mcap on a web server, https://…/NAME/ of one "
+        f"that is still recorded, {LIVE_SOURCES} of a live robot; NAME=URI gives it a "
+        "name",
         "--source",
         group="source",
         metavar="[NAME=]URI",
@@ -192,6 +195,15 @@ class Options:
         "a new mcap file in this folder, named after date and time",
         "--record-dir",
         metavar="DIR",
+    )
+    max_bag_duration: float | None = option(
+        None,
+        "with --record-dir: each recording is a folder, as of ros2 bag, whose file is "
+        "closed and the next one begun after this time, such as 5s; others can follow "
+        "it over a web server with --source http://…/NAME/",
+        "--max-bag-duration",
+        type=duration,
+        metavar="TIME",
     )
     publish: str | None = option(
         None,
@@ -533,6 +545,17 @@ class Options:
         ):
             if given is not None and not self.live_sources:
                 raise UsageError(f"{flag} needs a live robot: --source {LIVE_SOURCES}")
+        self._check_parts()
+
+    def _check_parts(self) -> None:
+        part_s = self.max_bag_duration
+        if part_s is not None and self.record_dir is None:
+            raise UsageError("--max-bag-duration needs --record-dir DIR")
+        if part_s is not None and not SHORTEST_PART <= part_s <= LONGEST_PART:
+            raise UsageError(
+                f"--max-bag-duration {part_s:g}s: a file has from {SHORTEST_PART:g}s "
+                f"to {LONGEST_PART / 60:g}min; write --max-bag-duration 5s"
+            )
 
     def _check_publish(self) -> None:
         """Refuse to send what cannot be sent."""

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from pathlib import Path
 
 import pytest
 from dds_peer import DdsPeer
 from live_peers import FoxglovePeer, Inbox, LivePeer
+from parted_recording import PartedRecording
 from rosbridge_peer import RosbridgePeer
 from zenoh_peer import ZenohPeer
 
@@ -42,6 +44,19 @@ def opened() -> Iterator[Callable[[str], Source]]:
             return source
 
         yield open_one
+
+
+@pytest.fixture
+def parted() -> Iterator[Callable[..., PartedRecording]]:
+    """Begins recordings in several files."""
+    with ExitStack() as stack:
+
+        def begin(folder: Path, start_ns: int = 10**18) -> PartedRecording:
+            made = PartedRecording(folder, start_ns)
+            stack.callback(made.kill)
+            return made
+
+        yield begin
 
 
 @pytest.fixture

@@ -27,7 +27,7 @@ from sambot_viz.errors import UsageError
 from sambot_viz.messages import MessageTypes
 from sambot_viz.sources import recorder as recorder_module
 from sambot_viz.sources.bag import open_recording
-from sambot_viz.sources.recorder import SourceRecorder
+from sambot_viz.sources.recorder import RecordingPlace, SourceRecorder
 from sambot_viz.sources.recording_thread import RecordingStatus
 from sambot_viz.sources.registry import open_source
 from sambot_viz.sources.source import Source
@@ -151,7 +151,9 @@ def test_latched_messages_from_before_the_start_stand_at_the_begin(
     peer.publish("/tf_static", "place")
     peer.publish("/a", "before")
     eventually(lambda: len(seen) == 4)
-    recorder = SourceRecorder(source, tmp_path, lambda: None, period=0.1)
+    recorder = SourceRecorder(
+        source, RecordingPlace(tmp_path), lambda: None, period=0.1
+    )
     recorder.start()
     eventually(has(recorder, 2))
     peer.publish("/a", "first")
@@ -212,7 +214,7 @@ def test_a_live_robot_that_is_closed_ends_its_recording_with_all_that_came(
 ) -> None:
     path = tmp_path / "closed.mcap"
     foxglove_peer.advertise("/a")
-    live = SourceRobot(source, MessageTypes(), recordings=tmp_path)
+    live = SourceRobot(source, MessageTypes(), recordings=RecordingPlace(tmp_path))
     came: list[object] = []
     live.recorder.start(path)
     source.open()
@@ -247,10 +249,11 @@ def test_a_file_is_never_overwritten(
 
 
 def test_recordings_of_one_second_have_different_names(tmp_path: Path) -> None:
-    begun = [recorder_module._named(tmp_path) for _ in range(3)]  # pyright: ignore[reportPrivateUsage]
-    for _, stream in begun:
-        stream.close()
-    names = {path.name for path, _ in begun}
+    place = RecordingPlace(tmp_path)
+    begun = [recorder_module._named(place, 1.0) for _ in range(3)]  # pyright: ignore[reportPrivateUsage]
+    for target in begun:
+        target.close()
+    names = {target.name for target in begun}
     assert len(names) == 3
     assert all(name.endswith(".mcap") for name in names)
 
@@ -433,7 +436,7 @@ def test_messages_that_were_lost_on_the_way_to_the_recorder_are_said(
 KILLED = """
 import sys, time
 from pathlib import Path
-from sambot_viz.sources.recorder import SourceRecorder
+from sambot_viz.sources.recorder import RecordingPlace, SourceRecorder
 from sambot_viz.sources.registry import open_source
 source = open_source(sys.argv[1])
 def tell():

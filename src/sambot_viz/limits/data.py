@@ -155,6 +155,12 @@ RECORDING_FILES = LimitRow(
     "",
     "the others are not opened, with a warning",
 )
+FOLLOWED_PART = LimitRow(
+    "a file of a recording that is followed on a web server",
+    2**30,
+    "bytes",
+    "the file is left out; the status says how many are",
+)
 METADATA = LimitRow(
     "metadata.yaml of a recording",
     2**24,

@@ -9,7 +9,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from sambot_viz.errors import UsageError
-from sambot_viz.files import RECORDING_ENDINGS, is_web_address, name_of_address
+from sambot_viz.files import (
+    RECORDING_ENDINGS,
+    is_web_address,
+    is_web_folder,
+    name_of_address,
+)
 from sambot_viz.sources.prefix import NO_NAMES
 from sambot_viz.sources.registry import KNOWN, live_address
 from sambot_viz.text import text
@@ -51,7 +56,8 @@ class GivenSource:
     def path(self) -> Path | str:
         """The file or folder of a recording; its address on a web server."""
         place = self.uri.removeprefix(_RECORDING)
-        return place if is_web_address(place) else Path(place)
+        on_the_web = is_web_address(place) or is_web_folder(place)
+        return place if on_the_web else Path(place)
 
     @property
     def label(self) -> str:
@@ -69,6 +75,9 @@ def given_source(words: str) -> GivenSource:
     named = None if os.path.exists(words) else _NAMED.fullmatch(words)
     name, uri = (named[1], named[2]) if named else ("", words)
     if uri.startswith(_RECORDING):
+        return GivenSource(uri, name)
+    if is_web_folder(uri):
+        live_address(uri)
         return GivenSource(uri, name)
     if is_web_address(uri):
         return GivenSource(f"{_RECORDING}{uri}", name)

@@ -7,6 +7,7 @@ import shlex
 import tempfile
 import threading
 from collections.abc import Callable
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import BinaryIO
@@ -14,17 +15,33 @@ from typing import BinaryIO
 from sambot_viz.errors import UsageError
 from sambot_viz.files import reason_of
 from sambot_viz.outlet import logger
+from sambot_viz.sources.recording_file import RecordingFile, RecordingTarget
 from sambot_viz.sources.recording_thread import (
     PERIOD,
     RecordingStatus,
     RecordingThread,
 )
 from sambot_viz.sources.source import Source
+from sambot_viz.sources.split_recording import SplitRecording
 from sambot_viz.text import text
 
 _MOST_NAMES = 100
 
 _log = logger(__name__)
+
+
+@dataclass(frozen=True, slots=True)
+class RecordingPlace:
+    """Where the recordings go that users of the page start.
+
+    Attributes:
+        folder: gets a file for each, or a folder.
+        part_s: after this time a file is closed and the next one begun [s]; None for
+            one file.
+    """
+
+    folder: Path
+    part_s: float | None = None
 
 
 class SourceRecorder:
@@ -34,8 +51,7 @@ class SourceRecorder:
 
     Args:
         source: the source to record.
-        folder: the folder for recordings that users of the page start; None if they may
-            not.
+        place: where recordings go that users of the page start; None if they may not.
         on_change: called once in a period while there is a recording, in its thread;
             must only post.
         on_trouble: called in the same thread with the reason if a recording ends before
@@ -43,19 +59,19 @@ class SourceRecorder:
         period: between reports, and between flushes at first [s].
 
     Attributes:
-        folder: as given.
+        place: as given.
         ended: the recordings before the present or last one.
     """
 
     def __init__(
         self,
         source: Source,
-        folder: Path | None,
+        place: RecordingPlace | None,
         on_change: Callable[[], object],
         on_trouble: Callable[[str], object] = _log.error,
         period: float = PERIOD,
     ) -> None:
-        self.folder = folder
+        self.place = place
         self._period = period
         self._source = source
         self._on_change = on_change
@@ -77,7 +93,7 @@ class SourceRecorder:
         """Begin a recording; nothing happens while there is one.
 
         Args:
-            path: the file; None takes a name with date and time in `folder`.
+            path: the file; None takes a name with date and time in `place`.
 
         Raises:
             UsageError: the file is there already, or cannot be written.
@@ -86,13 +102,15 @@ class SourceRecorder:
             last = self._recording
             if self._is_closed or (last is not None and last.status.is_running):
                 return
-            path, stream = _created(path) if path else _named(self.folder)
+            if path is not None:
+                target = RecordingFile(*_created(path), self._period)
+            else:
+                target = _named(self.place, self._period)
             if last is not None:
                 self.ended.append(last.status)
             made = RecordingThread(
                 self._source,
-                path,
-                stream,
+                target,
                 self._on_change,
                 self._on_trouble,
                 self._period,
@@ -163,16 +181,31 @@ def check_folder(folder: Path) -> None:
         ) from error
 
 
-def _named(folder: Path | None) -> tuple[Path, BinaryIO]:
-    """Create a file with date and time as its name, and another number if need be."""
-    if folder is None:
+def _named(place: RecordingPlace | None, period: float) -> RecordingTarget:
+    """Create a file or folder with date and time as its name, and a number if taken."""
+    if place is None:
         raise UsageError("recording is not offered here; start with --record-dir DIR")
     name = f"{datetime.now():%Y-%m-%d_%H-%M-%S}"
     for number in range(1, _MOST_NAMES):
-        path = folder / f"{name}{f'_{number}' if number > 1 else ''}.mcap"
-        if not os.path.lexists(path):
-            return _created(path)
-    raise UsageError(f"{text(str(folder))} has too many recordings of this second")
+        path = place.folder / f"{name}{f'_{number}' if number > 1 else ''}"
+        file = path.with_name(f"{path.name}.mcap")
+        if os.path.lexists(path) or os.path.lexists(file):
+            continue
+        if place.part_s is None:
+            return RecordingFile(*_created(file), period)
+        return SplitRecording(_created_folder(path), place.part_s, period)
+    raise UsageError(
+        f"{text(str(place.folder))} has too many recordings of this second"
+    )
+
+
+def _created_folder(path: Path) -> Path:
+    """Create a folder that does not exist yet."""
+    try:
+        path.mkdir()
+    except OSError as error:
+        raise _unwritable(path, error) from error
+    return path
 
 
 def _created(path: Path) -> tuple[Path, BinaryIO]:
@@ -182,8 +215,11 @@ def _created(path: Path) -> tuple[Path, BinaryIO]:
     except FileExistsError as error:
         raise UsageError(_exists(path)) from error
     except OSError as error:
-        message = f"{text(str(path))} cannot be written: {reason_of(error)}"
-        raise UsageError(message) from error
+        raise _unwritable(path, error) from error
+
+
+def _unwritable(path: Path, error: OSError) -> UsageError:
+    return UsageError(f"{text(str(path))} cannot be written: {reason_of(error)}")
 
 
 def _exists(path: Path) -> str:

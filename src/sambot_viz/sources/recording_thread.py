@@ -6,31 +6,23 @@ that is too slow costs messages of the file, and nothing else.
 
 from __future__ import annotations
 
-import os
 import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import closing
 from dataclasses import dataclass
-from pathlib import Path
-from typing import BinaryIO
 
 from sambot_viz import limits
 from sambot_viz.files import reason_of
 from sambot_viz.outlet import logger
-from sambot_viz.sources.bag.compression import BrokenPieceError
-from sambot_viz.sources.cut_recording import finish_cut
-from sambot_viz.sources.mcap_file import McapFile
 from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.recording_file import RecordingTarget
 from sambot_viz.sources.source import Source
 from sambot_viz.text import text
 
-PERIOD, LONGEST_PERIOD = 1.0, 10.0
-"""Between reports, and between flushes at first and at most: a program that is killed
-loses what came after the last one [s]."""
-_GROWTH = 0.003
-"""Of the length of a recording is the pause between flushes: each is in the index."""
+PERIOD = 1.0
+"""Time between reports, and between flushes at first [s]."""
 _FIRST_WITHIN = 1.0
 """Latched messages from before the start wait so long for the first other one [s]."""
 LONGEST_STOP = 10.0
@@ -82,16 +74,15 @@ class RecordingStatus:
 
 
 class RecordingThread:
-    """Writes one file until it is stopped.
+    """Writes one recording until it is stopped.
 
     Args:
         source: the source to record.
-        path: name of the file.
-        stream: the file, new and open; it is closed at the end.
+        target: where the messages are written; it is closed at the end.
         on_change: called once in a period, in the thread; must only post.
         on_trouble: called in the thread with the reason if a recording ends before it
             was stopped.
-        period: between reports, and between flushes at first [s].
+        period: between reports [s].
 
     Attributes:
         status: the state of the recording.
@@ -100,20 +91,18 @@ class RecordingThread:
     def __init__(
         self,
         source: Source,
-        path: Path,
-        stream: BinaryIO,
+        target: RecordingTarget,
         on_change: Callable[[], object],
         on_trouble: Callable[[str], object],
         period: float = PERIOD,
     ) -> None:
         self._period = period
         self._source = source
-        self._path = path
-        self._stream = stream
+        self._target = target
         self._on_change = on_change
         self._on_trouble = on_trouble
         self._thread = threading.Thread(
-            target=self._run, name=f"sambot-viz {path.name}", daemon=True
+            target=self._run, name=f"sambot-viz {target.name}", daemon=True
         )
         # The thread of the source adds, that of the recording takes.
         self._changed = threading.Condition()
@@ -125,12 +114,11 @@ class RecordingThread:
         self._subscribed: set[str] = set()
         # Of the recording's thread.
         self._begun = time.monotonic()
-        self._file: McapFile | None = None
         self._messages = 0
         self._unfit = 0
         self._begin_ns: int | None = None
         self._held: list[Recorded] = []
-        self.status = RecordingStatus(path.name)
+        self.status = RecordingStatus(target.name)
 
     def start(self) -> None:
         """Begin to write, and subscribe."""
@@ -195,39 +183,31 @@ class RecordingThread:
     def _run(self) -> None:
         trouble = ""
         try:
-            with self._stream:
+            with closing(self._target):
                 self._write_all()
         except OSError as error:
-            trouble = f"Recording {text(self._path.name)} ended: {reason_of(error)}"
-            self._make_whole()
+            trouble = f"Recording {text(self._target.name)} ended: {reason_of(error)}"
+            self._messages = self._target.rescue()
         except Exception as error:
             _log.debug("recording", exc_info=error)
-            trouble = f"Recording {text(self._path.name)} ended: internal error {error}"
+            trouble = (
+                f"Recording {text(self._target.name)} ended: internal error {error}"
+            )
         with self._changed:
             self._is_stopped = True
             self._queue.clear()
         for name in self._subscribed:
             self._source.unsubscribe(name, self._receive)
         if not self._messages:
-            # An empty file would only be in the way of the next try.
-            with suppress(OSError):
-                self._path.unlink()
+            self._target.remove()
             trouble = trouble or "No message came, so there is no file"
         if trouble:
             self._on_trouble(trouble)
         self._tell(is_running=False, trouble=trouble)
 
-    def _make_whole(self) -> None:
-        """Write the index of a file for which the disk has no more room."""
-        if self._file is not None:
-            with suppress(OSError, BrokenPieceError):
-                self._messages = finish_cut(
-                    self._path, self._file.flushed, self._file.definitions
-                )
-
     def _write_all(self) -> None:
-        file, flushed = McapFile(self._stream), self._begun
-        self._file = file
+        file = self._target
+        file.begin()
         while True:
             taken, is_stopped = self._take()
             for message, is_kept in taken:
@@ -238,10 +218,7 @@ class RecordingThread:
             if is_stopped:
                 file.finish()
                 return
-            period = min(LONGEST_PERIOD, max(self._period, seconds * _GROWTH))
-            if self._begun + seconds - flushed >= period:
-                flushed = self._begun + seconds
-                file.flush()
+            file.keep(seconds)
             if seconds - self.status.seconds >= self._period:
                 self._tell()
 
@@ -256,7 +233,7 @@ class RecordingThread:
             self._waiting = 0
             return taken, self._is_stopped
 
-    def _write(self, file: McapFile, message: Recorded, is_kept: bool) -> None:
+    def _write(self, file: RecordingTarget, message: Recorded, is_kept: bool) -> None:
         if is_kept and self._begin_ns is None:
             self._held.append(message)
             return
@@ -267,7 +244,7 @@ class RecordingThread:
         log_ns = max(message.log_ns, self._begin_ns) if is_kept else message.log_ns
         self._count(file.write(message, log_ns))
 
-    def _write_held(self, file: McapFile) -> None:
+    def _write_held(self, file: RecordingTarget) -> None:
         held, self._held = self._held, []
         if held and self._begin_ns is None:
             self._begin_ns = max(message.log_ns for message in held)
@@ -281,14 +258,11 @@ class RecordingThread:
             self._unfit += 1
 
     def _tell(self, is_running: bool = True, trouble: str = "") -> None:
-        size = 0
-        with suppress(OSError):
-            size = os.path.getsize(self._path)
         self.status = RecordingStatus(
-            self._path.name,
+            self._target.name,
             is_running,
             time.monotonic() - self._begun,
-            size,
+            self._target.size,
             self._messages,
             self._dropped,
             self._source.status.dropped - self._lost_before,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sambot_viz.errors import UsageError
 from sambot_viz.extras import require
-from sambot_viz.files import LIVE_SOURCES
+from sambot_viz.files import LIVE_SOURCES, is_web_folder
 from sambot_viz.sources.live.address import Address, parse_address
 from sambot_viz.sources.source import Source
 from sambot_viz.text import text
@@ -19,7 +19,7 @@ _EXTRAS = {"zenoh": "zenoh", "dds": "cyclonedds"}
 
 def is_live(uri: str) -> bool:
     """Return whether an address is of a live source, for `open_source`."""
-    return _scheme(uri) in _LIVE
+    return _scheme(uri) in _LIVE or is_web_folder(uri)
 
 
 def live_address(uri: str) -> Address:
@@ -27,12 +27,15 @@ def live_address(uri: str) -> Address:
 
     Args:
         uri: such as foxglove://robot:8765/path, foxglove+wss://lab or
-            rosbridge://robot:9090.
+            rosbridge://robot:9090; or the folder of a recording that is still made,
+            http://lab/runs/monday/.
 
     Raises:
         UsageError: there is no such kind of source, the address is invalid, or a
             package is missing.
     """
+    if is_web_folder(uri):
+        return parse_address(uri)
     scheme = _scheme(uri)
     if scheme in _LATER:
         raise UsageError(f"{text(uri)}: {scheme} comes later; known: {KNOWN}")
@@ -59,6 +62,10 @@ def open_source(uri: str) -> Source:
         from sambot_viz.sources.dds.dds_source import DdsSource
 
         return DdsSource(uri, address)
+    if address.protocol == "http":
+        from sambot_viz.sources.follow.followed_recording import FollowedRecording
+
+        return FollowedRecording(uri, address)
     # websockets takes 0.1 s to import, and most commands need none.
     from sambot_viz.sources.foxglove import FoxgloveConversation
     from sambot_viz.sources.foxglove_wire import SUBPROTOCOLS

@@ -7,7 +7,6 @@ import weakref
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sambot_viz.errors import Problem, Severity
@@ -51,7 +50,7 @@ from sambot_viz.topics.transforms import (
 if TYPE_CHECKING:
     from sambot_viz.sources.bag import Bag
     from sambot_viz.sources.given import GivenSource
-    from sambot_viz.sources.recorder import SourceRecorder
+    from sambot_viz.sources.recorder import RecordingPlace, SourceRecorder
 
 FIRST_SECONDS = 2.0
 """The frames that move are learnt from the beginning of a recording [s]."""
@@ -77,8 +76,8 @@ class SourceRobot:
         name: its name; by default that of the source.
         at: the time to begin with [s from the first message of a recording]; None plays
             from the start.
-        recordings: the folder for recordings of a live robot that users of the page
-            start; None if they may not.
+        recordings: where recordings of a live robot go that users of the page start;
+            None if they may not.
         published: the topics of a live robot, if the source holds its messages of some
             seconds; None for other sources.
 
@@ -107,7 +106,7 @@ class SourceRobot:
         types: MessageTypes,
         name: str = "",
         at: float | None = None,
-        recordings: Path | None = None,
+        recordings: RecordingPlace | None = None,
         *,
         published: Collection[str] | None = None,
     ) -> None:

@@ -213,7 +213,7 @@ class SourcePanel(Panel):
         if command_id == "player/step":
             return self._player is not None
         recorder = self._data.moved_by.recorder
-        if recorder is None or recorder.folder is None or not self._offers_recording:
+        if recorder is None or recorder.place is None or not self._offers_recording:
             return False
         status = recorder.status
         is_running = status is not None and status.is_running

@@ -16,6 +16,9 @@ from sambot_viz.errors import Problem
 from sambot_viz.sources.bag.refusals import refused, unreadable
 
 METADATA = "metadata.yaml"
+STATE = "sambot_viz.recording"
+"""The key in `custom_data` of metadata.yaml; its value is one of the next two."""
+RUNNING, ENDED = "running", "ended"
 
 _BESIDE = ("-wal", "-shm", "-journal")
 ENDINGS = (".mcap", ".db3", ".bag", ".zstd", ".zst")
@@ -105,12 +108,17 @@ def _listing(names: list[str]) -> str:
 
 
 def _named(folder: Path) -> list[str]:
-    """Return the names of the files in metadata.yaml, without the folder before."""
+    """Return the names of the files in the metadata.yaml of a folder."""
     try:
         with (folder / METADATA).open("rb") as stream:
             text = stream.read(limits.METADATA.value).decode("utf-8", "replace")
     except (OSError, ValueError):
         return []
+    return names_in(text)
+
+
+def names_in(text: str) -> list[str]:
+    """Return the names of the files in a metadata.yaml, without the folder before."""
     found = _NAMES.search(text)
     if found is None:
         return []

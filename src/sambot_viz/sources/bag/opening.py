@@ -8,13 +8,18 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from sambot_viz.errors import Problem, SourceError
-from sambot_viz.files import is_lfs_pointer, is_web_address, name_of_address
+from sambot_viz.files import (
+    is_lfs_pointer,
+    is_web_address,
+    is_web_folder,
+    name_of_address,
+)
 from sambot_viz.sources.bag import db3_file, mcap_records, ros1
 from sambot_viz.sources.bag.bag import Bag
 from sambot_viz.sources.bag.block_bag import OPENING, BlockBag
 from sambot_viz.sources.bag.db3 import Db3Bag
 from sambot_viz.sources.bag.file_bytes import FileBytes
-from sambot_viz.sources.bag.folder import files_of
+from sambot_viz.sources.bag.folder import METADATA, files_of
 from sambot_viz.sources.bag.mcap import McapBag
 from sambot_viz.sources.bag.recording import Recording
 from sambot_viz.sources.bag.refusals import (
@@ -83,7 +88,11 @@ def open_recording(
     problems: list[Problem] = []
     try:
         for path in paths:
-            if not is_web_address(path) and (path := Path(path)).is_dir():
+            if isinstance(path, str) and is_web_folder(path):
+                opened, found = _open_web_folder(path)
+                bags += opened
+                problems += found
+            elif not is_web_address(path) and (path := Path(path)).is_dir():
                 opened, found = _open_folder(path)
                 bags += opened
                 problems += found
@@ -99,6 +108,29 @@ def open_recording(
 def _open_folder(folder: Path) -> tuple[list[Bag], list[Problem]]:
     """Open the recordings of a folder, without those that cannot be opened."""
     files, problems = files_of(folder)
+    return _open_each(files, problems)
+
+
+def _open_web_folder(address: str) -> tuple[list[Bag], list[Problem]]:
+    """Open the files that the list of a folder on a web server names."""
+    from sambot_viz.sources.bag.web_folder import WebFolder
+
+    folder = WebFolder(address)
+    try:
+        names = folder.read_list().names
+    except OSError as error:
+        raise unreadable(Path(METADATA), error) from error
+    finally:
+        folder.close()
+    if not names:
+        where, message = Path(METADATA), f"{METADATA} names no file yet"
+        raise refused(where, "file-not-a-bag", message, "open it in some seconds")
+    return _open_each([folder.address_of(name) for name in names], [])
+
+
+def _open_each(
+    files: Iterable[str | Path], problems: list[Problem]
+) -> tuple[list[Bag], list[Problem]]:
     bags: list[Bag] = []
     refusal: SourceError | None = None
     for file in files:

@@ -137,7 +137,9 @@ class WebBytes(FileBytes):
                 return self._answer(first, last)
             except requests.RequestException as error:
                 if is_last or not isinstance(error, requests.ConnectionError):
-                    raise self._error(f"{self._host}: {_reason(error)}") from error
+                    raise self._error(
+                        f"{self._host}: {request_failure(error)}"
+                    ) from error
         raise AssertionError
 
     def _error(self, message: str) -> WebError:
@@ -204,7 +206,7 @@ class WebBytes(FileBytes):
             self._version = {"If-Unmodified-Since": since}
 
 
-def _reason(error: Exception) -> str:
+def request_failure(error: Exception) -> str:
     """Return a sentence about a failed connection."""
     import requests
 

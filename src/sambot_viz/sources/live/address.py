@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from urllib.parse import SplitResult, parse_qsl, urlsplit
 
 from sambot_viz.errors import UsageError
+from sambot_viz.files import is_web_folder
 from sambot_viz.text import text
 
 PORTS = {"foxglove": 8765, "rosbridge": 9090, "zenoh": 7447}
@@ -31,11 +32,12 @@ class Address:
     """The address of a server.
 
     Attributes:
-        protocol: "foxglove", "rosbridge", "zenoh" or "dds".
+        protocol: "foxglove", "rosbridge", "zenoh", "dds", or "http" of a folder.
         host: name or number of the machine; "" of DDS.
         port: TCP port; 0 of DDS.
         is_secure: spoken through TLS.
-        websocket: "ws://robot:8765/path?token=…"; may hold a password. "" of others.
+        websocket: "ws://robot:8765/path?token=…", or the address of a folder; may hold
+            a password. "" of others.
         domain: ROS's domain id, where the address says it.
         interface: of the network, for DDS; "" for the usual one.
         peers: machines with participants of DDS; none for all that multicast reaches.
@@ -104,6 +106,8 @@ def parse_address(uri: str) -> Address:
     scheme, _, rest = uri.partition(":")
     if scheme.lower() == "dds":
         return _dds(uri, rest)
+    if is_web_folder(uri):
+        return _folder(uri)
     protocol, _, transport = scheme.lower().partition("+")
     if protocol in ("ws", "wss"):
         protocol, transport = "foxglove", protocol
@@ -130,6 +134,19 @@ def parse_address(uri: str) -> Address:
         return Address(protocol, host, port, is_secure, "", domain)
     websocket = _websocket(parts, is_secure, host, port)
     return Address(protocol, host, port, is_secure, websocket)
+
+
+def _folder(uri: str) -> Address:
+    """Read the address of a folder on a web server."""
+    try:
+        parts = urlsplit(uri)
+        host, port = parts.hostname or "", parts.port
+    except ValueError as error:
+        raise UsageError(f"{text(uri)}: this is no host and port") from error
+    if not host:
+        raise UsageError(f"{text(uri)}: no host is named; write http://HOST/NAME/")
+    is_secure = parts.scheme.lower() == "https"
+    return Address("http", host, port or (443 if is_secure else 80), is_secure, uri)
 
 
 def _dds(uri: str, rest: str) -> Address:
