@@ -43,6 +43,8 @@ def test_it_prints_one_line_with_the_address_and_serves_the_page(
         (["--config", "own.rviz"], "unrecognized arguments: --config"),
         (["--prot", "80"], "did you mean --port?"),
         (["check", "--formt=json"], "did you mean --format?"),
+        (["class", "diff-drive", "--metrics"], "--metrics is a flag of other commands"),
+        (["index", "--metrics"], "--metrics is a flag of other commands, not of this"),
         (["--zzz"], "unrecognized arguments: --zzz; see sambot-viz --help"),
     ],
 )

@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from sambot_viz.frames.static_transform import StaticTransform
 
 Group = Literal[
-    "model", "check", "source", "pose", "view", "compare", "server", "listen"
+    "model", "check", "source", "pose", "view", "compare", "server", "listen", "counts"
 ]
 """Groups of options for the same commands: all with a MODEL, those that check it, read
-recordings and live robots, pose the robot, draw it, or draw another one beside it, and
-the one that serves a page."""
+recordings and live robots, pose the robot, draw it, or draw another one beside it, the
+one that serves a robot's page, those that serve any page, and those that count."""
 AGAIN = "; may be given several times"
 
 SHORTEST_TOKEN = 8

@@ -386,7 +386,7 @@ class Options:
         "count clients, bytes, sources and problems for Prometheus, at /metrics of the "
         "same address and with the same token",
         "--metrics",
-        group="listen",
+        group="counts",
         switch="yes-no",
     )
     log_format: LogFormat = option(

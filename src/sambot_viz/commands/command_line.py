@@ -131,6 +131,10 @@ class Parser(argparse.ArgumentParser):
         unknown = re.match(r"unrecognized arguments: (--[\w-]+)", message)
         flags = [name for action in self._actions for name in action.option_strings]
         near = nearest(unknown[1], flags) if unknown else None
+        elsewhere = {n for option in declared(Options) for n in flag_of(option).names}
+        if unknown and unknown[1] in elsewhere:
+            message = f"{unknown[1]} is a flag of other commands, not of this one"
+            near = None
         meant = f"; did you mean {near}?" if near else ""
         if re.match(r"unrecognized arguments: .*\.(mcap|db3|bag)\b", message):
             meant = "; name each recording with --source FILE, a model with --model."

@@ -50,7 +50,7 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz lesson",
-        groups=("listen",),
+        groups=("listen", "counts"),
         takes_model=False,
         description="LESSON: show a lesson beside the robot that you write, until "
         "Ctrl-C; with --static, write it as files. list: name the lessons that ship. "

@@ -181,6 +181,7 @@ def parser() -> Parser:
             "pose",
             "server",
             "listen",
+            "counts",
         ),
         description="Show a URDF, SDF or xacro robot in the browser: no ROS, no X "
         "server.",
