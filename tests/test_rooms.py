@@ -183,7 +183,7 @@ ROOMS: Mapping[str, Row] = {
     ),
     # Programs of their own, on other ports, and a page that leads to them.
     "lab": Row(
-        "classroom options server",
+        "classroom options server sources",
         "websockets",
         "asyncio http threading urllib.request",
     ),

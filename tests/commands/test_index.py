@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from html import unescape
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -13,12 +13,17 @@ from urllib.error import HTTPError
 from urllib.request import Request, urlopen
 
 import pytest
-from live_peers import free_port
-from patience import patience
+from live_peers import WAIT, free_port
+from lower_limit import lower
+from patience import patience, until
 from program import address, serving
+from zenoh_peer import ZenohPeer
 
 from sambot_viz import Visualizer
 from sambot_viz.cli import main
+from sambot_viz.lab.index import RobotIndex
+from sambot_viz.options import Options
+from sambot_viz.sources.registry import live_address
 
 Capture = pytest.CaptureFixture[str]
 SECRET = "the-secret-of-the-lab"
@@ -143,6 +148,68 @@ def test_robots_by_address_and_what_else_may_answer_there(tmp_path: Path) -> Non
             assert found[MARKED][0] == f"{ready}/"
             with urlopen(f"{url}readyz", timeout=patience(20)) as answer:
                 assert answer.read() == b"ready\n"
+
+
+@pytest.fixture
+def router() -> Iterator[ZenohPeer]:
+    """A router, which forwards and knows nothing."""
+    peer = ZenohPeer(has_nodes=False)
+    yield peer
+    peer.stop()
+
+
+def test_the_robots_of_a_router_come_and_go(router: ZenohPeer, tmp_path: Path) -> None:
+    words = ("index", "--source", router.uri, "--port", "0", "--host", "0.0.0.0")
+    with serving(*words, cwd=tmp_path) as program:
+        url = address(program)
+        assert rows(url) == {}
+        arm = Visualizer(broadcast=f"{router.uri}/arm", port=0, base_path="/arm")
+        turtle = Visualizer(
+            broadcast=f"{router.uri}/turtle",
+            port=0,
+            allowed_origins=["https://lab.example.org"],
+            token=SECRET,
+        )
+        with turtle:
+            with arm:
+                link = f"http://127.0.0.1:{arm.viser.get_port()}/arm/"
+                ready = {
+                    "arm": (link, "ready"),
+                    "turtle": ("https://lab.example.org/", "ready"),
+                }
+                until(lambda: rows(url) == ready, WAIT)
+                assert rows(url, Host="robot-pc:8080").keys() == {
+                    "arm (only on its own machine)",
+                    "turtle",
+                }
+            # Its name and its link stay: it may come back.
+            ended = {**ready, "arm": (link, "does not answer")}
+            until(lambda: rows(url) == ended, WAIT)
+            router.stop()
+            until(lambda: "zenoh router" in note(url), WAIT)
+            away = "does not answer"
+            until(lambda: {said for _, said in rows(url).values()} == {away}, WAIT)
+
+
+def note(url: str) -> str:
+    """What is said below the robots."""
+    with urlopen(url, timeout=patience(20)) as answer:
+        page = answer.read().decode()
+    return unescape("".join(re.findall("<p>(.*?)</p>", page)))
+
+
+def test_a_router_with_too_many_robots_is_listed_in_part(
+    router: ZenohPeer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lower(monkeypatch, "INDEXED_ROBOTS", 2)
+    for name in ("a", "b", BAD.replace("/", "")):
+        router.declare(f"sambot-viz/{name}/origin/1/0")
+    routers = [live_address(router.uri)]
+    with RobotIndex(Options(port=0), "Robots", [], routers) as index:
+        until(lambda: "the first 2 are listed" in note(index.url), WAIT)
+        # None of them is a program that answers.
+        assert {state for _, state in rows(index.url).values()} == {"does not answer"}
+        assert len(rows(index.url)) == 2
 
 
 def test_states_are_asked_for_once_for_many_who_look(tmp_path: Path) -> None:

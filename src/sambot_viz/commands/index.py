@@ -16,11 +16,12 @@ from sambot_viz.files import reason_of
 from sambot_viz.waiting import wait_for
 
 if TYPE_CHECKING:
-    from sambot_viz.lab.robots import IndexedRobot
+    from sambot_viz.lab.indexed_robot import IndexedRobot
     from sambot_viz.options import Options
 
 ENDING = ".conf"
 """The ending of the file of a robot, which systemd reads too."""
+_ROUTERS = ("zenoh://", "zenoh+")
 _WORDS = re.compile(r"\s*ARGS\s*=\s*(.*)")
 _EXAMPLE = "ARGS=/home/robot/my_bot --port 8081 --base-path /my_bot"
 
@@ -28,21 +29,26 @@ _EXAMPLE = "ARGS=/home/robot/my_bot --port 8081 --base-path /my_bot"
 def run(words: list[str]) -> int:
     """Serve the index until Ctrl-C."""
     given, options = parse(parser(), words)
-    robots = [*map(_of_address, given.source)]
+    routers = [word for word in given.source if word.startswith(_ROUTERS)]
+    robots = [_of_address(word) for word in given.source if word not in routers]
     if given.folder is not None:
         robots += of_folder(Path(given.folder))
-    if not robots:
+    if not robots and not routers:
         raise UsageError(
             "an index needs robots: name a folder with a file NAME.conf for each, or "
-            "give --source NAME=http://127.0.0.1:8080 for each"
+            "give --source NAME=http://127.0.0.1:8080 for each; or name a router to "
+            "which they broadcast, --source zenoh://127.0.0.1:7447"
         )
     # The imports are late: --help needs no server.
     from sambot_viz.commands.show import announce, until_signal
     from sambot_viz.lab.index import RobotIndex
+    from sambot_viz.sources.registry import live_address
+
+    addresses = [live_address(router) for router in routers]
 
     with (
         until_signal() as stop,
-        RobotIndex(options, given.title, robots) as index,
+        RobotIndex(options, given.title, robots, addresses) as index,
     ):
         announce(options, index.port, given.open)
         wait_for(stop)
@@ -71,9 +77,10 @@ def parser() -> Parser:
         "--source",
         action="append",
         default=[],
-        metavar="NAME=ADDRESS",
+        metavar="[NAME=]ADDRESS",
         help="a robot by the address of its page, such as "
-        "turtle=https://lab.example.org/turtle; may be given several times",
+        "turtle=https://lab.example.org/turtle; or a router, zenoh://HOST:7447, with "
+        "all robots that broadcast to it; may be given several times",
     )
     made.add_argument(
         "--title",
@@ -86,7 +93,7 @@ def parser() -> Parser:
 
 
 def _of_address(word: str) -> IndexedRobot:
-    from sambot_viz.lab.robots import IndexedRobot
+    from sambot_viz.lab.indexed_robot import IndexedRobot
 
     name, _, address = word.partition("=")
     parts = urlsplit(address)
@@ -153,7 +160,7 @@ def _parser_of_robots() -> Parser:
 
 
 def _of_options(name: str, options: Options) -> IndexedRobot:
-    from sambot_viz.lab.robots import IndexedRobot
+    from sambot_viz.lab.indexed_robot import IndexedRobot
     from sambot_viz.server.listener import page_url, public_url
 
     bare = options.having(token=None, presenter=None)

@@ -13,13 +13,16 @@ from websockets.http11 import Request, Response
 
 from sambot_viz import limits
 from sambot_viz.classroom.requests import BadRequestError, answer, read_request
-from sambot_viz.lab.robots import IndexedRobot, RobotState, RobotStates
+from sambot_viz.lab.indexed_robot import IndexedRobot, RobotState
+from sambot_viz.lab.robots import RobotStates
+from sambot_viz.lab.router_robots import RouterRobots
 from sambot_viz.options import Options
 from sambot_viz.server.handshake import without_base
 from sambot_viz.server.listener import bound_socket, page_url
 from sambot_viz.server.protection import access
 from sambot_viz.server.protection.token_check import TokenCheck
 from sambot_viz.server.readiness import readiness
+from sambot_viz.sources.live.address import Address
 from sambot_viz.text import text
 
 _SAID: dict[RobotState, str] = {
@@ -52,23 +55,26 @@ td:last-child { opacity: .75 }
 
 def index_page(
     title: str,
-    robots: Sequence[IndexedRobot],
-    states: Sequence[RobotState],
+    robots: Sequence[tuple[IndexedRobot, RobotState]],
+    notes: Sequence[str],
     opened_at: str,
 ) -> str:
     """Return the index page.
 
     Args:
         title: heading of the page.
-        robots: robots in order.
-        states: state of each robot.
+        robots: robots in order, each with its state.
+        notes: what is wrong with the list itself.
         opened_at: name or address under which the browser opened the page.
     """
     rows = "".join(
         f"<tr><td>{_named(robot, opened_at)}</td>"
         f'<td class="{state}">{_SAID[state]}</td></tr>\n'
-        for robot, state in zip(robots, states, strict=True)
+        for robot, state in robots
     )
+    if not robots:
+        rows = "<tr><td>No robot is there yet</td></tr>\n"
+    below = "".join(f"<p>{escape(text(note))}</p>\n" for note in notes if note)
     shown = escape(text(title))
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
@@ -76,7 +82,7 @@ def index_page(
         '<meta name="robots" content="noindex">'
         f'<meta http-equiv="refresh" content="{_AGAIN}">'
         f"<title>{shown}</title><style>{_STYLE}</style></head><body>\n"
-        f"<h1>{shown}</h1>\n<table>\n{rows}</table>\n</body></html>\n"
+        f"<h1>{shown}</h1>\n<table>\n{rows}</table>\n{below}</body></html>\n"
     )
 
 
@@ -94,17 +100,23 @@ class RobotIndex:
         options: address to listen on, and the token.
         title: heading of the page.
         robots: robots in order.
+        routers: routers of zenoh with more robots.
 
     Raises:
         ServerError: the address cannot be listened on.
     """
 
     def __init__(
-        self, options: Options, title: str, robots: Sequence[IndexedRobot]
+        self,
+        options: Options,
+        title: str,
+        robots: Sequence[IndexedRobot],
+        routers: Sequence[Address] = (),
     ) -> None:
         self.options = options
-        self._title, self._robots = title, robots
-        self._states = RobotStates(robots)
+        self._title = title
+        self._routers = [RouterRobots(address) for address in routers]
+        self._states = RobotStates(robots, self._routers)
         self._check = TokenCheck(options.token, None, options.base_path)
         self._socket = bound_socket(options)
         self._socket.listen()
@@ -144,11 +156,12 @@ class RobotIndex:
         server = await asyncio.start_server(
             self._take, sock=self._socket, limit=longest
         )
+        held = [asyncio.ensure_future(router.run()) for router in self._routers]
         await self._end.wait()
         server.close()
-        for task in self._open:
+        for task in (*self._open, *held):
             task.cancel()
-        await asyncio.gather(*self._open, return_exceptions=True)
+        await asyncio.gather(*self._open, *held, return_exceptions=True)
 
     async def _take(self, reader: StreamReader, writer: StreamWriter) -> None:
         task = asyncio.current_task()
@@ -177,7 +190,8 @@ class RobotIndex:
         if path.partition("?")[0] not in ("/", ""):
             return access.plain(http.HTTPStatus.NOT_FOUND, "No such page.")
         opened_at = access.hostname(request.headers["Host"])
-        states = await self._states.get()
-        page = index_page(self._title, self._robots, states, opened_at)
+        robots = await self._states.get()
+        notes = [router.trouble for router in self._routers]
+        page = index_page(self._title, robots, notes, opened_at)
         more = {"Content-Security-Policy": _POLICY}
         return answer(page.encode(), "text/html", more=more)

@@ -1,4 +1,4 @@
-"""A robot in the index of a lab, and the state that its server reports."""
+"""The states of the robots in the index of a lab, as their servers report them."""
 
 from __future__ import annotations
 
@@ -7,15 +7,12 @@ import time
 import urllib.error
 import urllib.request
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
-from sambot_viz.server.protection.access import only_this_machine
+from sambot_viz.lab.indexed_robot import IndexedRobot, RobotState
+from sambot_viz.lab.router_robots import RouterRobots
 from sambot_viz.server.readiness import READY
 
-RobotState = Literal["ready", "waiting", "stopping", "locked", "other", "away"]
-"""The state that a server reports; "locked" for a server that requires a login,
-"other" for another program, and "away" for a server that does not answer."""
 _PATIENCE = 2.0
 """A server that does not answer within this time is away [s]."""
 _FRESH = 3.0
@@ -23,40 +20,6 @@ _FRESH = 3.0
 _AT_ONCE = 16
 _LONGEST = 64
 """Longest part of an answer that is read [bytes]."""
-
-
-@dataclass(frozen=True, slots=True)
-class IndexedRobot:
-    """A robot of the index.
-
-    Attributes:
-        name: name that users read.
-        asked: address that reports its state, without a slash at the end.
-        shown: address that browsers open; "" for a port of this machine.
-        host: address its server listens on, for a port of this machine.
-        port: port of that server.
-        base_path: base path of that server.
-    """
-
-    name: str
-    asked: str
-    shown: str = ""
-    host: str = "127.0.0.1"
-    port: int = 0
-    base_path: str = "/"
-
-    def link(self, opened_at: str) -> str:
-        """Return the address of the page; "" where the user cannot open it.
-
-        Args:
-            opened_at: name or address under which the browser opened the index.
-        """
-        if self.shown:
-            return self.shown
-        if only_this_machine(self.host) and not only_this_machine(opened_at):
-            return ""
-        name = f"[{opened_at}]" if ":" in opened_at else opened_at
-        return f"http://{name}:{self.port}{self.base_path.rstrip('/')}/"
 
 
 class _NoRedirects(urllib.request.HTTPRedirectHandler):
@@ -95,15 +58,18 @@ class RobotStates:
 
     Args:
         robots: robots of the index.
+        routers: routers with more robots, which come and go.
     """
 
-    def __init__(self, robots: Sequence[IndexedRobot]) -> None:
-        self._robots = robots
+    def __init__(
+        self, robots: Sequence[IndexedRobot], routers: Sequence[RouterRobots] = ()
+    ) -> None:
+        self._robots, self._routers = robots, routers
         self._asked, self._lock = float("-inf"), asyncio.Lock()
-        self._known: list[RobotState] = []
+        self._known: list[tuple[IndexedRobot, RobotState]] = []
 
-    async def get(self) -> Sequence[RobotState]:
-        """Return the state of each robot, at most a few seconds old."""
+    async def get(self) -> Sequence[tuple[IndexedRobot, RobotState]]:
+        """Return each robot with its state, at most a few seconds old."""
         async with self._lock:
             if time.monotonic() - self._asked >= _FRESH:
                 free = asyncio.Semaphore(_AT_ONCE)
@@ -112,6 +78,9 @@ class RobotStates:
                     async with free:
                         return await asyncio.to_thread(state_of, robot)
 
-                self._known = await asyncio.gather(*map(ask, self._robots))
+                states = await asyncio.gather(*map(ask, self._robots))
+                self._known = [*zip(self._robots, states, strict=True)]
+                for seen in await asyncio.gather(*(r.get() for r in self._routers)):
+                    self._known += seen
                 self._asked = time.monotonic()
         return self._known

@@ -166,6 +166,12 @@ CONFIG_NAMES = LimitRow(
     "",
     "the first are listed, and none is added; the page says so",
 )
+INDEXED_ROBOTS = LimitRow(
+    "robots of a router in an index",
+    1000,
+    "",
+    "the first are listed; the page says so",
+)
 RECORDING_NAMES = LimitRow(
     "recordings that a page can open",
     1000,

@@ -40,6 +40,11 @@ class BroadcastPlace:
         return f"sambot-viz/{self.address.name}/snapshot"
 
     @property
+    def page(self) -> str:
+        """The key that is asked for the address of the origin's page, and its state."""
+        return f"sambot-viz/{self.name}/page"
+
+    @property
     def origins(self) -> str:
         """The keys of the tokens that say that an origin is there."""
         return self.token("*", "*")
@@ -65,6 +70,15 @@ def parse_place(uri: str, flag: str) -> BroadcastPlace:
         )
     address = live_address(f"{scheme}://{server}")
     return BroadcastPlace(replace(address, flag=flag, name=name))
+
+
+EVERY_ORIGIN = "sambot-viz/*/origin/*/*"
+"""The keys of the tokens of all origins at a router."""
+
+
+def name_of(token: str) -> str:
+    """Return the name of the broadcast that a token of an origin is of."""
+    return token.split("/")[1]
 
 
 def origin_of(token: str) -> tuple[str, str]:

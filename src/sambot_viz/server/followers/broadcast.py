@@ -16,12 +16,14 @@ from sambot_viz.server.followers.viewer import ViewerConnection
 from sambot_viz.server.followers.wire import (
     VERSION,
     Label,
+    OriginPage,
     Part,
     Snapshot,
 )
 from sambot_viz.server.listener import Listener, page_url, public_url, reachable_at
 from sambot_viz.server.outgoing.outbox import Outbox
 from sambot_viz.server.protection.inbound_filter import ClientHandler
+from sambot_viz.server.readiness import ServerState
 from sambot_viz.server.tickets import Channels
 from sambot_viz.sources.broadcast_place import (
     BroadcastPlace,
@@ -59,7 +61,10 @@ def broadcast(
     assert options.broadcast is not None
     place = parse_place(options.broadcast, "--broadcast")
     url = _url(options, listener.viser.get_port())
-    made = Broadcast(place, url, outgoing, handler, listener.channels)
+    answers = listener.answers
+    made = Broadcast(
+        place, url, lambda: answers.state(), outgoing, handler, listener.channels
+    )
     return link.run(listener.viser.get_event_loop(), made.run)
 
 
@@ -79,6 +84,7 @@ class Broadcast:
     Args:
         place: place of the broadcast.
         url: address of this server's page, without secrets.
+        state: returns the state of this server.
         outgoing: packed frames of the scene.
         handler: provides the rows of the clients.
         channels: channels of the pages.
@@ -91,12 +97,13 @@ class Broadcast:
         self,
         place: BroadcastPlace,
         url: str,
+        state: Callable[[], ServerState],
         outgoing: Outbox,
         handler: ClientHandler,
         channels: Channels,
     ) -> None:
         self.id = secrets.token_hex(6)
-        self._place, self._url = place, url
+        self._place, self._url, self._state = place, url, state
         self._outgoing, self._handler = outgoing, handler
         self._channels = channels
         self._number = 0
@@ -206,6 +213,7 @@ class Broadcast:
         self._publisher = session.frames(self._place.frames)
         self._held = [
             session.on_question(self._place.snapshot, self._take_question),
+            session.on_question(self._place.page, self._take_page_question),
             session.declare_token(self._place.token(self.id, VERSION)),
         ]
         self._trouble.set("")
@@ -223,6 +231,11 @@ class Broadcast:
         self._asked.append(answer)
         if self._answering is None:
             self._answering = asyncio.ensure_future(self._answer_all())
+
+    def _take_page_question(self, answer: Answer) -> None:
+        page = OriginPage(self._url, self._state())
+        # Answering takes its time, which the loop does not have.
+        asyncio.get_running_loop().run_in_executor(None, answer, page.packed())
 
     async def _answer_all(self) -> None:
         try:

@@ -60,8 +60,25 @@ class Snapshot(msgspec.Struct, array_like=True, frozen=True):
         return msgspec.msgpack.encode(self)
 
 
+class OriginPage(msgspec.Struct, frozen=True):
+    """Describes the page of an origin, for an index of robots.
+
+    Attributes:
+        url: address of the page, without secrets; "" for none.
+        state: state of the server.
+    """
+
+    url: str
+    state: Literal["waiting", "ready", "stopping"]
+
+    def packed(self) -> bytes:
+        """Encode the description for sending."""
+        return msgspec.msgpack.encode(self)
+
+
 _LABELS = msgspec.msgpack.Decoder(Label)
 _SNAPSHOTS = msgspec.msgpack.Decoder(Snapshot)
+_PAGES = msgspec.msgpack.Decoder(OriginPage)
 
 
 def label_of(attached: bytes) -> Label | None:
@@ -76,5 +93,13 @@ def snapshot_of(content: bytes) -> Snapshot | None:
     """Decode a snapshot; None for one from an unknown publisher."""
     try:
         return _SNAPSHOTS.decode(content)
+    except msgspec.DecodeError:
+        return None
+
+
+def page_of(content: bytes) -> OriginPage | None:
+    """Decode the description of a page; None for one from an unknown publisher."""
+    try:
+        return _PAGES.decode(content)
     except msgspec.DecodeError:
         return None
