@@ -28,6 +28,7 @@ from sambot_viz.options import Options
 SECRET = "the-secret-of-the-lab"
 WORDS = {"ok", "ready", "waiting", "stopping"}
 TEXT = "<robot name='typed'><link name='base_link'/></robot>"
+BEFORE = "<robot name='saved'><link name='base_link'/></robot>"
 
 
 def ask(address: str, **headers: str) -> tuple[int, str]:
@@ -159,6 +160,37 @@ def test_a_program_that_is_told_to_end_tells_its_pages_and_saves_texts(
         page.close()
     if program.file:
         assert (tmp_path / program.file).read_text() == TEXT
+
+
+def test_a_text_of_a_robot_is_kept_and_the_next_program_begins_with_it(
+    tmp_path: Path,
+) -> None:
+    model = tmp_path / "robot.urdf"
+    model.write_text(BEFORE)
+    program = Program((str(model), "--edit"))
+    draft = tmp_path / ".robot.urdf.draft"
+    with running(*program.words, "--port", "0", cwd=tmp_path) as process:
+        page = page_of(process, program)
+        write(page, TEXT)
+        process.send_signal(signal.SIGTERM)
+        _, err = rest_of(process)
+        assert process.returncode == 0 and "Traceback" not in err
+        page.close()
+    assert model.read_text() == BEFORE and draft.exists()
+    with running(*program.words, "--port", "0", cwd=tmp_path) as process:
+        page = page_of(process, program)
+        page.act("model/show", True)
+        page.wait_until(lambda: shown(page, "model/text") is not None)
+        assert shown(page, "model/text")["text"] == TEXT
+        assert shown(page, "model/text")["changed"]
+        page.act("model/save", "robot.urdf")
+        page.wait_until(lambda: model.read_text() == TEXT)
+        page.wait_until(lambda: not draft.exists())
+        page.close()
+        process.send_signal(signal.SIGTERM)
+        _, err = rest_of(process)
+        assert "robot.urdf has text that was not saved when the program ended" in err
+    assert not draft.exists()
 
 
 def test_a_seat_outlives_what_ends_all_processes_of_a_service(tmp_path: Path) -> None:

@@ -160,7 +160,7 @@ class Server:
         self._stopped.set()
         loop = self._viser.get_event_loop()
         # The order matters: pages hold back new edits, the server handles the edits
-        # that they have sent, and then it saves a student's texts.
+        # that they have sent, and then it saves or keeps their texts.
         _run(loop, self._listener.tell_stop())
         self._save_texts()
         self._end_broadcast()
@@ -169,9 +169,9 @@ class Server:
         self._listener.close()
 
     def _save_texts(self) -> None:
-        """Save a student's texts, after all edits that the pages have sent."""
+        """Save a student's texts, and keep others, after all edits that pages sent."""
         place = self.sessions.shared_place
-        if self.options.study is None or place is None or place.session is None:
+        if not self.options.edit or place is None or place.session is None:
             return
         text = None if place.window is None else place.window.text
         if text is None:
@@ -183,8 +183,11 @@ class Server:
         for _ in pages:
             done.acquire(timeout=max(0.0, end - time.monotonic()))
         with place.session.lock:
-            for sentence in text.save_all():
+            # Other programs run the files, but for those of a lesson.
+            for sentence in () if self.options.study is None else text.save_all():
                 _log.warning("a text of the lesson is not saved: %s", sentence)
+            for sentence in text.keep_drafts():
+                _log.warning("an unsaved text is lost: %s", sentence)
 
 
 def prepare_page(server: viser.ViserServer) -> None:

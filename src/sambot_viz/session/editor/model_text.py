@@ -15,11 +15,19 @@ from typing import NamedTuple
 from sambot_viz import limits
 from sambot_viz.edits import Extent, SourceFile, apply_edits, by_file
 from sambot_viz.errors import Edit, Place, RobotError, SambotVizError, UsageError
+from sambot_viz.files import reason_of
 from sambot_viz.fixes import EditRefused
+from sambot_viz.outlet import logger
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Link
 from sambot_viz.robot.xacro.diagnose.source_files import read_source
 from sambot_viz.session.editor.buffer import Buffer, Replacement
+from sambot_viz.session.editor.drafts import (
+    draft_path,
+    forget_draft,
+    keep_draft,
+    take_draft,
+)
 from sambot_viz.session.editor.file_text import to_units
 from sambot_viz.session.editor.model_files import ModelFiles
 from sambot_viz.session.editor.model_numbers import (
@@ -35,6 +43,8 @@ from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.shown_problems import Checks, Problems
 from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.unsaved import unsaved
+
+_log = logger(__name__)
 
 
 class TextPlace(NamedTuple):
@@ -195,7 +205,12 @@ class ModelText:
         if path is None:
             raise UsageError("this file is no longer there")
         if name not in self._buffers:
-            self._buffers[name] = Buffer.opened(path, name)
+            opened = self._buffers[name] = Buffer.opened(path, name)
+            if self.can_save and take_draft(opened):
+                _log.warning(
+                    f"{name} has text that was not saved when the program ended: it "
+                    "is in the editor"
+                )
         return self._buffers[name]
 
     def link(self, name: str) -> Link | None:
@@ -339,6 +354,19 @@ class ModelText:
                 refused.append(str(error))
         return refused
 
+    def keep_drafts(self) -> list[str]:
+        """Keep unsaved texts for the next program; return what cannot be kept."""
+        refused: list[str] = []
+        for buffer in self._buffers.values() if self.can_save else ():
+            try:
+                if buffer.is_changed:
+                    keep_draft(buffer)
+                else:
+                    forget_draft(buffer.path)
+            except OSError as error:
+                refused.append(f"{buffer.name}: {reason_of(error)}")
+        return refused
+
     def save(self, name: str) -> None:
         """Write a text into its file.
 
@@ -367,6 +395,7 @@ class ModelText:
                 self._tell()
             raise
         buffer.saved(data)
+        forget_draft(buffer.path)
         self._tell()
 
     @property
@@ -460,6 +489,13 @@ class ModelText:
         if [*paths.items()] != [*self._paths.items()]:
             self._paths = paths
             self.changed.touch()
+            drafts = [
+                name
+                for name, path in paths.items()
+                if name not in self._buffers and draft_path(path).exists()
+            ]
+            if self.can_save and any([self.buffer(n).is_changed for n in drafts]):
+                self._tell()
 
     def _look(self) -> None:
         """Compare the files with the disk, after other programs may have saved them."""
