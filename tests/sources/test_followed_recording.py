@@ -16,7 +16,10 @@ from patience import until
 
 from sambot_viz.errors import SourceError
 from sambot_viz.sources.bag import open_recording
-from sambot_viz.sources.follow import followed_recording
+from sambot_viz.sources.follow import conversation, followed_recording
+from sambot_viz.sources.given import given_source
+from sambot_viz.sources.live.address import without_secrets
+from sambot_viz.sources.registry import is_live
 from sambot_viz.sources.source import Source
 
 Opened = Callable[[str], Source]
@@ -168,7 +171,61 @@ def test_a_server_that_comes_back_goes_on_with_the_next_file(
     made.part("two")
     with folder_server(made.folder, port):
         inbox.wait_for("one", "two")
-        assert source.status.is_connected
+        until(lambda: "connection" not in source.status.sentence, WAIT)
+        assert source.status.is_connected and source.status.session == 1
+
+
+def test_another_recording_in_its_place_is_another_session(
+    parted: Parted, tmp_path: Path, opened: Opened, inbox: Inbox
+) -> None:
+    folder = tmp_path / "latest"
+    folder.symlink_to(tmp_path / "monday")
+    parted(tmp_path / "monday").part("one")
+    parted(tmp_path / "tuesday").part("two")
+    with folder_server(folder) as server:
+        source = follow(opened, server, inbox)
+        inbox.wait_for("one")
+        (tmp_path / "new").symlink_to(tmp_path / "tuesday")
+        (tmp_path / "new").rename(folder)
+        inbox.wait_for("one", "two")
+        assert source.status.session == 2
+
+
+def test_a_recorder_that_says_nothing_more_is_told(
+    made: PartedRecording,
+    server: FolderServer,
+    opened: Opened,
+    inbox: Inbox,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(conversation, "SILENCE", 0.0)
+    made.part("one")
+    source = follow(opened, server, inbox)
+    inbox.wait_for("one")
+    made.kill()
+    says(source, "nothing new for")
+
+
+def test_secrets_of_an_address_are_not_shown(
+    made: PartedRecording, server: FolderServer
+) -> None:
+    made.part("one")
+    secret = server.address.replace("://", "://me:word@") + "?key=hidden"
+    assert is_live(secret) and given_source(secret).is_live
+    shown = without_secrets(secret)
+    assert shown == server.address
+    with pytest.raises(SourceError) as refused:
+        open_recording(secret)
+    said = str(refused.value) + str(refused.value.problems)
+    assert "HTTP ranges" in said and "word" not in said and "hidden" not in said
+
+
+def test_a_folder_whose_address_lacks_its_slash_is_named_as_such(
+    made: PartedRecording,
+) -> None:
+    with folder_server(made.folder.parent) as server:
+        with pytest.raises(SourceError, match="it is a folder: end its address with /"):
+            open_recording(f"{server.address}run")
 
 
 def test_a_follower_that_is_far_behind_goes_on_with_the_newest_file(
@@ -225,6 +282,7 @@ def test_a_folder_without_a_list_says_so_until_there_is_one(
     with folder_server(folder) as server:
         source = follow(opened, server, inbox)
         says(source, "answered 404 File not found for metadata.yaml")
+        assert not source.status.is_connected
         folder.rmdir()
         parted(folder).part("one")
         inbox.wait_for("one")

@@ -184,6 +184,8 @@ class WebBytes(FileBytes):
             if found is not None:
                 begin, end, size = map(int, found.groups())
                 return begin, end, size
+        if answer.status_code == 200 and urlsplit(answer.url).path.endswith("/"):
+            raise self._error("it is a folder: end its address with /")
         if answer.status_code in (200, 206):
             raise refused(
                 self.path,

@@ -31,6 +31,7 @@ class FollowConversation(Conversation):
 
     Attributes:
         missing: number of files that the server did not have, or that cannot be read.
+        trouble: why the server gives nothing now; "" when it does.
         has_ended: whether the last file was played.
     """
 
@@ -41,6 +42,7 @@ class FollowConversation(Conversation):
         self.calls = ServiceCalls(self._refuse_call, self.publishes)
         self.session_id = first
         self.missing = 0
+        self.trouble = ""
         self.has_ended = False
         self._topics: dict[str, SourceTopic] = {}
         self._held = LatchedState()
@@ -106,6 +108,8 @@ class FollowConversation(Conversation):
     def notes(self) -> list[str]:
         """Return the end, a silence, and files that are missing."""
         notes: list[str] = []
+        if self.trouble:
+            notes.append(self.trouble)
         if self.has_ended:
             notes.append(
                 "the recording has ended, and this is its last picture: go through it "

@@ -10,7 +10,6 @@ from __future__ import annotations
 import asyncio
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 
 from sambot_viz.errors import SambotVizError, SourceError
 from sambot_viz.sources.bag.bag import Bag
@@ -31,9 +30,16 @@ _AT_ONCE = 100
 
 @dataclass(frozen=True, slots=True)
 class _CopiedFile:
-    """A file that is to be played, and when its name came [s of the loop]."""
+    """A file that is to be played.
+
+    Attributes:
+        bag: the file.
+        next: the number of the one after it in the list.
+        listed_at: when its name came [s of the loop].
+    """
 
     bag: Bag
+    next: int
     listed_at: float
 
 
@@ -95,34 +101,41 @@ class FollowedRecording(LiveSource):
         listed: PartList,
         parts: asyncio.Queue[_CopiedFile | None],
     ) -> None:
-        """Copy file after file, one ahead of the one that is played."""
-        listed_at = loop.time()
+        """Copy file after file, one ahead of the one that is played.
+
+        A server that is away is asked again, and what was copied is played meanwhile.
+        """
+        listed_at, number = loop.time(), self._next
         while True:
             names = listed.names
             self._first = self._first or next(iter(names), "")
             if names and names[0] != self._first:
                 raise SourceError("another recording has taken its place")
-            if self._next < len(names):
-                if len(names) - self._next > FARTHEST:
-                    self._next = len(names) - 1
-                name, self._next = names[self._next], self._next + 1
-                try:
-                    path = await loop.aside(partial(folder.fetch, name))
-                    bag = await loop.aside(partial(_opened, path))
-                except (MissingPartError, SourceError):
-                    conversation.missing += 1
-                    continue
-                await parts.put(_CopiedFile(bag, listed_at))
-            elif listed.is_running:
+            if len(names) - number > FARTHEST:
+                number = len(names) - 1
+            try:
+                if number < len(names):
+                    bag = await loop.aside(partial(_copied, folder, names[number]))
+                    number += 1
+                    await parts.put(_CopiedFile(bag, number, listed_at))
+                elif listed.is_running:
+                    await asyncio.sleep(POLL)
+                else:
+                    return await parts.put(None)
+                found = await loop.aside(folder.read_list)
+                conversation.trouble = ""
+            except (MissingPartError, SourceError):
+                conversation.missing += 1
+                number += 1
+                continue
+            except OSError as error:
+                conversation.trouble = str(error)
                 await asyncio.sleep(POLL)
-            else:
-                return await parts.put(None)
-            known, listed = listed, await loop.aside(folder.read_list)
-            if len(listed.names) < len(known.names):
-                # A list that is shorter was read while it was written.
-                listed = PartList(known.names, known.is_running)
-            elif listed.names != known.names:
-                listed_at = loop.time()
+                continue
+            # A list that is shorter was read while it was written.
+            if len(found.names) >= len(names):
+                listed_at = loop.time() if found.names != names else listed_at
+                listed = found
 
     async def _play(
         self,
@@ -133,6 +146,7 @@ class FollowedRecording(LiveSource):
         """Deliver the messages of file after file, at the pace of their log times."""
         due, last_ns = loop.time(), 0
         while (part := await parts.get()) is not None:
+            self._next = part.next
             try:
                 conversation.take_part(part.bag, loop.time() - part.listed_at)
                 self._follow()
@@ -163,8 +177,9 @@ class FollowedRecording(LiveSource):
         return f"internal error: {error}"
 
 
-def _opened(path: Path) -> Bag:
-    """Open a file that was copied, which then needs its name no longer."""
+def _copied(folder: WebFolder, name: str) -> Bag:
+    """Copy a file and open it; its name is then needed no longer."""
+    path = folder.fetch(name)
     bag = open_bag(path)
     path.unlink()
     return bag
