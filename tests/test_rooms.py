@@ -23,6 +23,7 @@ SCRIPTS = re.compile(r'^(?:import|export|\}) .*?"(\.[^"]+\.js)";', re.MULTILINE)
 FOUNDATIONS = {
     "advice",
     "cached",
+    "content_policy",
     "edits",
     "errors",
     "extras",
@@ -216,6 +217,7 @@ ROOMS: Mapping[str, Row] = {
         "concurrent threading",
     ),
     "cached": Row(),
+    "content_policy": Row(),
     "flags": Row("frames joints"),
     "limits": Row(),
     "matrices": Row("", "numpy"),

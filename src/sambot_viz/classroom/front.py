@@ -31,6 +31,7 @@ from sambot_viz.classroom.requests import (
 )
 from sambot_viz.classroom.roll import TEACHER, Roll, Student
 from sambot_viz.classroom.seat_process import SeatAddress
+from sambot_viz.content_policy import strict_policy
 from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.options import Options
 from sambot_viz.server.connections.page_files import plain_page
@@ -292,12 +293,8 @@ class Front:
 
 
 def _html(content: bytes) -> Response:
-    policy = (
-        "default-src 'none'; script-src 'unsafe-inline' data:; style-src "
-        "'unsafe-inline'; connect-src 'self'; frame-src 'self'; img-src data:; "
-        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-    )
-    return answer(content, "text/html", more={"Content-Security-Policy": policy})
+    more = {"Content-Security-Policy": strict_policy("class")}
+    return answer(content, "text/html", more=more)
 
 
 def _download(content: bytes, kind: str, name: str) -> Response:

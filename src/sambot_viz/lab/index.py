@@ -13,6 +13,7 @@ from websockets.http11 import Request, Response
 
 from sambot_viz import limits
 from sambot_viz.classroom.requests import BadRequestError, answer, read_request
+from sambot_viz.content_policy import strict_policy
 from sambot_viz.lab.indexed_robot import IndexedRobot, RobotState
 from sambot_viz.lab.robots import RobotStates
 from sambot_viz.lab.router_robots import RouterRobots
@@ -36,10 +37,6 @@ _SAID: dict[RobotState, str] = {
 _AGAIN = 10
 """Browsers reload the page after this time [s]."""
 _DRAIN = 15.0
-_POLICY = (
-    "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; "
-    "form-action 'none'; frame-ancestors 'none'"
-)
 _STYLE = """
 :root { color-scheme: light dark }
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 40em; margin: 2em auto;
@@ -193,5 +190,5 @@ class RobotIndex:
         robots = await self._states.get()
         notes = [router.trouble for router in self._routers]
         page = index_page(self._title, robots, notes, opened_at)
-        more = {"Content-Security-Policy": _POLICY}
+        more = {"Content-Security-Policy": strict_policy("text")}
         return answer(page.encode(), "text/html", more=more)

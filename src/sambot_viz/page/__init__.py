@@ -16,6 +16,8 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from sambot_viz.content_policy import policy_element
+
 _FOLDER = Path(__file__).parent
 _PREFIX = "sambot/"
 """What the names of the modules begin with in the import map."""
@@ -54,13 +56,6 @@ _STYLES = (
 _PLAYER_STYLES = (*_WINDOW_STYLES, "player/player.css")
 _CLASS_STYLES = ("window/window.css", "board/board.css")
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
-_ONLY_ITSELF = (
-    "default-src 'none'; base-uri 'none'; form-action 'none'; "
-    "script-src 'unsafe-inline' 'unsafe-eval' data: blob:; "
-    "worker-src data: blob:; connect-src data: blob:; img-src data: blob:; "
-    "font-src data:; style-src 'unsafe-inline'"
-)
-"""What a page from a file may load: nothing from anywhere."""
 
 
 def with_scripts(html: bytes, panels: bool, look: str = "rviz") -> bytes:
@@ -119,8 +114,8 @@ def standing_alone(
         [
             before,
             b'<head><meta charset="utf-8">',
-            b'<meta http-equiv="Content-Security-Policy" ',
-            f'content="{_ONLY_ITSELF}"><title>{escape(title)}</title>'.encode(),
+            policy_element("recording").encode(),
+            f"<title>{escape(title)}</title>".encode(),
             head,
             b'<script>window.__VISER_EMBED_DATA__="',
             # The longest part; it is copied once.

@@ -16,6 +16,7 @@ from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
 from sambot_viz import page
+from sambot_viz.content_policy import strict_policy
 from sambot_viz.server.connections.viser_page import ViserPage, taken_apart
 
 VISER_PROTOCOL = f"viser-v{viser.__version__}"
@@ -193,8 +194,10 @@ def reading_page(text: str) -> Response:
     Args:
         text: the HTML, with text from files and requests escaped.
     """
-    policy = "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
-    more = {"Content-Security-Policy": policy, "X-Content-Type-Options": "nosniff"}
+    more = {
+        "Content-Security-Policy": strict_policy("text"),
+        "X-Content-Type-Options": "nosniff",
+    }
     return _html(http.HTTPStatus.OK, text.encode(), more)
 
 
