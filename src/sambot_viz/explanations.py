@@ -7,12 +7,14 @@ internet and a terminal show what the documentation says.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from html import escape, unescape
 
 from sambot_viz import bundled
 from sambot_viz.errors import UsageError, did_you_mean
+from sambot_viz.lessons.html_text import block_html
 from sambot_viz.lessons.markdown import TextBlock, TextSpan, blocks
 
 _ESCAPED = re.compile(r"\\([*|\[\]])")
@@ -59,7 +61,7 @@ def as_html(code: str) -> str:
     """
     parts = [_html_of(block) for block in _section(code)]
     parts.append('<p><a href="./">All codes</a></p>')
-    return _PAGE.format(title=escape(code), body="\n".join(parts))
+    return _PAGE.format(title=escape(code), body="".join(parts))
 
 
 def index_html() -> str:
@@ -104,17 +106,14 @@ def _text_of(block: TextBlock) -> str:
 
 
 def _html_of(block: TextBlock) -> str:
-    if block.kind == "code":
-        return f"<pre>{escape(block.text)}</pre>"
-    tag, lines = "p", ["".join(_spans(line)) for line in block.lines]
-    quote = escape(_QUOTE)
-    if lines[0].startswith(quote):
-        tag, lines[0] = "blockquote", lines[0].removeprefix(quote)
-    return f"<{tag}>{'<br>'.join(lines)}</{tag}>"
+    """Return a block as HTML; links lead to pages that are not here."""
+    lines = [[*map(_shown, line)] for line in block.lines]
+    is_quote = bool(lines) and lines[0][0].text.startswith(_QUOTE)
+    if is_quote:
+        lines[0][0] = TextSpan(lines[0][0].text.removeprefix(_QUOTE))
+    shown = replace(block, lines=tuple(map(tuple, lines)))
+    return block_html(shown, "blockquote" if is_quote else "p")
 
 
-def _spans(line: tuple[TextSpan, ...]) -> Iterator[str]:
-    for span in line:
-        said = escape(_plain(span))
-        is_text = span.style in ("", "link")
-        yield said if is_text else f"<{span.style}>{said}</{span.style}>"
+def _shown(span: TextSpan) -> TextSpan:
+    return TextSpan(_plain(span), "" if span.style == "link" else span.style)

@@ -9,14 +9,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 
+from sambot_viz.content_policy import policy_element
+from sambot_viz.lessons.html_text import block_html
 from sambot_viz.lessons.lesson import Lesson, LessonStep
-from sambot_viz.lessons.markdown import TextBlock, TextSpan, blocks
+from sambot_viz.lessons.markdown import TextBlock, blocks
 
 PICTURES = "pictures"
 """Folder of the pictures, beside the page."""
-_TAGS = {"strong": "strong", "em": "em", "code": "code"}
-_LISTS = {"list": "ul", "numbers": "ol"}
-_POLICY = "script-src 'none'; object-src 'none'; base-uri 'none'; form-action 'none'"
 _STYLE = """
 :root { color-scheme: light dark }
 body { font: 16px/1.55 system-ui, sans-serif; max-width: 46em; margin: 2em auto;
@@ -73,7 +72,7 @@ def lesson_page(
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width">'
-        f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
+        f"{policy_element('lesson')}"
         f"<title>{title}</title><style>{_STYLE}</style></head><body>\n"
         f"<h1>{title}</h1>\n<p>{escape(' '.join(lesson.about.split()))}</p>\n"
         f"{_note(lesson, track, ships)}{_files(files)}"
@@ -142,26 +141,4 @@ def _robots(robots: StepRobots) -> Iterator[str]:
 
 
 def _html(found: Iterable[TextBlock]) -> str:
-    return "".join(map(_block, found))
-
-
-def _block(block: TextBlock) -> str:
-    if block.kind == "code":
-        return f"<pre><code>{escape(block.text)}</code></pre>\n"
-    if block.kind == "picture":
-        source = escape(f"{PICTURES}/{block.word}")
-        return f'<p><img src="{source}" alt="{escape(block.text)}"></p>\n'
-    lines = ["".join(map(_span, line)) for line in block.lines]
-    if block.kind in _LISTS:
-        items = "".join(f"<li>{line}</li>" for line in lines)
-        return f"<{_LISTS[block.kind]}>{items}</{_LISTS[block.kind]}>\n"
-    tag = "h3" if block.kind == "heading" else "p"
-    return f"<{tag}>{'<br>'.join(lines)}</{tag}>\n"
-
-
-def _span(span: TextSpan) -> str:
-    words = escape(span.text)
-    if span.style == "link":
-        return f'<a href="{escape(span.href)}" rel="noopener noreferrer">{words}</a>'
-    tag = _TAGS.get(span.style)
-    return words if tag is None else f"<{tag}>{words}</{tag}>"
+    return "".join(block_html(block, pictures=PICTURES) for block in found)
