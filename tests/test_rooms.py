@@ -180,13 +180,13 @@ ROOMS: Mapping[str, Row] = {
     "classroom": Row(
         "inputs lessons options page robot server session visualizer",
         "websockets",
-        "asyncio http threading",
+        "asyncio http threading urllib.request",
     ),
     # Programs of their own, on other ports, and a page that leads to them.
     "lab": Row(
         "classroom options server sources",
         "websockets",
-        "asyncio http threading urllib.request",
+        "asyncio http",
     ),
     "commands": Row(
         "_version bundled checks classroom export fixes flags frames graph inputs "

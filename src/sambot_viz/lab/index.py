@@ -4,25 +4,22 @@ from __future__ import annotations
 
 import asyncio
 import http
-import threading
-from asyncio import StreamReader, StreamWriter
+from asyncio import StreamWriter
 from collections.abc import Sequence
 from html import escape
 
 from websockets.http11 import Request, Response
 
-from sambot_viz import limits
-from sambot_viz.classroom.requests import BadRequestError, answer, read_request
+from sambot_viz.classroom.one_port import OnePort
+from sambot_viz.classroom.requests import answer
 from sambot_viz.content_policy import strict_policy
 from sambot_viz.lab.indexed_robot import IndexedRobot, RobotState
 from sambot_viz.lab.robots import RobotStates
 from sambot_viz.lab.router_robots import RouterRobots
 from sambot_viz.options import Options
-from sambot_viz.server.handshake import without_base
-from sambot_viz.server.listener import bound_socket, page_url
+from sambot_viz.server.listener import page_url
 from sambot_viz.server.protection import access
 from sambot_viz.server.protection.token_check import TokenCheck
-from sambot_viz.server.readiness import readiness
 from sambot_viz.sources.live.address import Address
 from sambot_viz.text import text
 
@@ -36,7 +33,6 @@ _SAID: dict[RobotState, str] = {
 }
 _AGAIN = 10
 """Browsers reload the page after this time [s]."""
-_DRAIN = 15.0
 _STYLE = """
 :root { color-scheme: light dark }
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 40em; margin: 2em auto;
@@ -91,7 +87,7 @@ def _named(robot: IndexedRobot, opened_at: str) -> str:
 
 
 class RobotIndex:
-    """Serves the index, from `start` to `stop`.
+    """Serves the index, as a context.
 
     Args:
         options: address to listen on, and the token.
@@ -114,16 +110,11 @@ class RobotIndex:
         self._title = title
         self._routers = [RouterRobots(address) for address in routers]
         self._states = RobotStates(robots, self._routers)
-        self._check = TokenCheck(options.token, None, options.base_path)
-        self._socket = bound_socket(options)
-        self._socket.listen()
-        named = self._socket.getsockname()
-        self.port = 0 if options.unix_socket is not None else int(named[1])
-        self._open: set[asyncio.Task[None]] = set()
-        self._loop = asyncio.new_event_loop()
-        self._thread = threading.Thread(
-            target=self._run, name="sambot-viz-index", daemon=True
-        )
+        check = TokenCheck(options.token, None, options.base_path)
+        beside = self._hold if self._routers else None
+        name = "sambot-viz-index"
+        self._server = OnePort(options, name, check, self._answer, beside)
+        self.port = self._server.port
 
     @property
     def url(self) -> str:
@@ -132,58 +123,19 @@ class RobotIndex:
 
     def __enter__(self) -> RobotIndex:
         """Start listening."""
-        self._thread.start()
+        self._server.start()
         return self
 
     def __exit__(self, *_: object) -> None:
         """Stop, and free the port."""
-        self._loop.call_soon_threadsafe(self._end.set)
-        self._thread.join()
-        self._socket.close()
+        self._server.stop()
 
-    # On the loop
+    async def _hold(self) -> None:
+        await asyncio.gather(*(router.run() for router in self._routers))
 
-    def _run(self) -> None:
-        self._end = asyncio.Event()
-        self._loop.run_until_complete(self._serve())
-        self._loop.close()
-
-    async def _serve(self) -> None:
-        longest = limits.CLASS_REQUEST.value
-        server = await asyncio.start_server(
-            self._take, sock=self._socket, limit=longest
-        )
-        held = [asyncio.ensure_future(router.run()) for router in self._routers]
-        await self._end.wait()
-        server.close()
-        for task in (*self._open, *held):
-            task.cancel()
-        await asyncio.gather(*self._open, *held, return_exceptions=True)
-
-    async def _take(self, reader: StreamReader, writer: StreamWriter) -> None:
-        task = asyncio.current_task()
-        assert task is not None
-        self._open.add(task)
-        try:
-            if len(self._open) <= limits.CONNECTIONS.value:
-                response = await self._answer(await read_request(reader))
-                response.headers["Connection"] = "close"
-                writer.write(response.serialize())
-                await asyncio.wait_for(writer.drain(), _DRAIN)
-        except (BadRequestError, OSError, UnicodeError, asyncio.CancelledError):
-            # The client has left, or sends requests that browsers do not make.
-            pass
-        finally:
-            self._open.discard(task)
-            writer.close()
-
-    async def _answer(self, request: Request) -> Response:
-        path = without_base(request.path, self.options.base_path)
-        found = readiness(request, path, "ready")
-        found = found or access.refusal(request, self.options)
-        found = found or self._check.refusal(request)
-        if found is not None:
-            return found if isinstance(found, Response) else await found
+    async def _answer(
+        self, request: Request, path: str, writer: StreamWriter
+    ) -> Response:
         if path.partition("?")[0] not in ("/", ""):
             return access.plain(http.HTTPStatus.NOT_FOUND, "No such page.")
         opened_at = access.hostname(request.headers["Host"])

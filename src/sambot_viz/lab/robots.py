@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import time
-import urllib.error
-import urllib.request
 from collections.abc import Sequence
-from typing import Any
 
+from sambot_viz.classroom.asking import ask
 from sambot_viz.lab.indexed_robot import IndexedRobot, RobotState
 from sambot_viz.lab.router_robots import RouterRobots
 from sambot_viz.server.readiness import READY
@@ -22,27 +20,10 @@ _LONGEST = 64
 """Longest part of an answer that is read [bytes]."""
 
 
-class _NoRedirects(urllib.request.HTTPRedirectHandler):
-    """Do not follow redirects: they lead to a login."""
-
-    def redirect_request(
-        self, req: Any, fp: Any, code: Any, msg: Any, headers: Any, newurl: Any
-    ) -> None:
-        return None
-
-
-_OPENER = urllib.request.build_opener(urllib.request.ProxyHandler({}), _NoRedirects())
-"""Asks a server directly: robots are in this network, not beyond a proxy."""
-
-
 def state_of(robot: IndexedRobot) -> RobotState:
     """Ask a robot's server for its state; takes two seconds at most."""
     try:
-        with _OPENER.open(f"{robot.asked}{READY}", timeout=_PATIENCE) as answer:
-            status, content = answer.status, answer.read(_LONGEST)
-    except urllib.error.HTTPError as error:
-        with error:
-            status, content = error.code, error.read(_LONGEST)
+        status, content = ask(f"{robot.asked}{READY}", _PATIENCE, _LONGEST)
     except (OSError, ValueError):
         return "away"
     word = content.decode(errors="replace").strip()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import replace
 from urllib.parse import urlsplit
 
 from sambot_viz import limits
@@ -100,7 +101,7 @@ class RouterRobots:
             if not found.done():
                 found.set_result(None)
 
-        place = BroadcastPlace(self._address, name)
+        place = BroadcastPlace(replace(self._address, name=name))
         session.ask(place.page, _PATIENCE, answered, ended)
         page = None
         with suppress(asyncio.TimeoutError):

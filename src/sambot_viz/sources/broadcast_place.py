@@ -42,7 +42,7 @@ class BroadcastPlace:
     @property
     def page(self) -> str:
         """The key that is asked for the address of the origin's page, and its state."""
-        return f"sambot-viz/{self.name}/page"
+        return f"sambot-viz/{self.address.name}/page"
 
     @property
     def origins(self) -> str:
