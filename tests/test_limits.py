@@ -51,7 +51,7 @@ NO_LIMITS = {
         topics/ends.py MOST_ENDS _WIDEST
     """,
     "time: how long something is waited for, lasts or is kept": """
-        classroom/seat.py LONGEST
+        classroom/student_page.py LONGEST
         classroom/seat_process.py _LONGEST_START _LONGEST_END
         commands/command_line.py LONGEST_LISTEN
         displays/data/message_filter.py LONGEST_WAIT_NS

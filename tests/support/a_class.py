@@ -134,12 +134,14 @@ class BoardRows:
     Attributes:
         head: the first event: the lesson, and the rows of that time.
         rows: the row of each student, by number, as it is now.
+        trouble: why rows may be old.
     """
 
     def __init__(self, lines: Iterable[bytes]) -> None:
         self._lines = iter(lines)
         self.head: dict[str, Any] = {}
         self.rows: dict[int, dict[str, Any]] = {}
+        self.trouble = ""
         while not self.head:
             self._read()
 
@@ -162,8 +164,9 @@ class BoardRows:
             return
         event = json.loads(line.removeprefix(b"data: "))
         self.head = self.head or event
-        for row in event.get("rows", [event.get("row")]):
-            self.rows[row["number"]] = row
+        self.trouble = event.get("trouble", self.trouble)
+        rows = event.get("rows", [event["row"]] if "row" in event else [])
+        self.rows |= {row["number"]: row for row in rows}
 
 
 def write(client: ProtocolClient, text: str) -> None:

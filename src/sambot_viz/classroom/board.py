@@ -11,9 +11,9 @@ import zipfile
 from collections.abc import Callable, Iterator
 from datetime import datetime, timezone
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
-from sambot_viz.classroom.roll import Roll, Student
+from sambot_viz.classroom.roll import Student
 from sambot_viz.classroom.seat_state import SeatState
 from sambot_viz.lessons.grading import grade
 from sambot_viz.lessons.lesson import Lesson
@@ -23,6 +23,8 @@ from sambot_viz.lessons.writers import WRITERS
 
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 """First characters that make a spreadsheet read a cell as a formula."""
+_HEAD = 0
+"""Number of a change that belongs to no student."""
 COLUMNS = (
     "name",
     "folder",
@@ -39,6 +41,13 @@ COLUMNS = (
 )
 
 
+class ClassList(Protocol):
+    """The students of a class, and the folder that has their folders."""
+
+    folder: Path
+    students: dict[int, Student]
+
+
 class Board:
     """The progress of all students, and the pages that follow it.
 
@@ -50,13 +59,16 @@ class Board:
     Attributes:
         title: title of the lesson.
         shown: number of the student whose page is shown to the class; 0 for none.
+        trouble: reason why rows may be old; "" when they are new.
     """
 
-    def __init__(self, lesson: Lesson, roll: Roll, track: str | None = None) -> None:
+    def __init__(
+        self, lesson: Lesson, roll: ClassList, track: str | None = None
+    ) -> None:
         self._lesson, self._roll, self._track = lesson, roll, track
         self._states: dict[int, SeatState] = {}
         self._followers: set[BoardFollower] = set()
-        self.title, self.shown = lesson.title, 0
+        self.title, self.shown, self.trouble = lesson.title, 0, ""
         for student in roll.students.values():
             self.look_up(student)
 
@@ -71,8 +83,8 @@ class Board:
         self.take(student.number, state)
 
     def take(self, number: int, state: SeatState) -> None:
-        """Take a student's new state, and notify the followers."""
-        if number in self._roll.students:
+        """Take a student's state, and notify the followers if it is new."""
+        if number in self._roll.students and self._states.get(number) != state:
             self._states[number] = state
             self._tell(number)
 
@@ -81,6 +93,21 @@ class Board:
         before, self.shown = self.shown, number
         for changed in {before, number} - {0}:
             self._tell(changed)
+
+    def say_trouble(self, trouble: str) -> None:
+        """Show why rows may be old; "" when they are new."""
+        if trouble != self.trouble:
+            self.trouble = trouble
+            self._tell(_HEAD)
+
+    def has(self, number: int) -> bool:
+        """Return whether a student is in the class."""
+        return number in self._roll.students
+
+    @property
+    def is_followed(self) -> bool:
+        """Whether a page shows the board."""
+        return bool(self._followers)
 
     def _tell(self, number: int) -> None:
         for follower in self._followers:
@@ -98,6 +125,12 @@ class Board:
             **state.as_json(),
         }
 
+    def change(self, number: int) -> dict[str, Any]:
+        """Return a change for the page: a student's row, or the trouble with 0."""
+        if number == _HEAD:
+            return {"trouble": self.trouble}
+        return {"row": self.row(number)}
+
     def _place(self, number: int) -> list[float]:
         """Return the sort key of a row: the student stuck for longest comes first."""
         state = self._states[number]
@@ -111,6 +144,7 @@ class Board:
             "steps": len(self._lesson.steps),
             "points": sum(step.points for step in self._lesson.steps),
             "folder": str(self._roll.folder),
+            "trouble": self.trouble,
             "now": time.time(),
             "rows": [self.row(number) for number in self._states],
         }
@@ -138,7 +172,7 @@ class Board:
         yield from (student.name, student.folder, state.step, state.title)
         yield from (f"{state.points:g}", state.tries, state.errors, state.warnings)
         yield from (state.first, _time(state.changed), _time(state.since))
-        yield state.pages
+        yield state.server or state.pages
 
     def collect(self, into: Path) -> None:
         """Write a zip with the files, the progress and the grade of each student.

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from sambot_viz import limits
 from sambot_viz.classroom.board import Board
+from sambot_viz.classroom.board_pages import Orders
 from sambot_viz.classroom.front import LOOK, Front
 from sambot_viz.classroom.roll import Roll, Student
 from sambot_viz.classroom.seat_process import SeatAddress, SeatProcess
@@ -64,9 +65,8 @@ class Classroom:
         self._processes = [
             SeatProcess(lesson.file, track, self._board.take) for _ in range(count)
         ]
-        self._front = Front(
-            options, self._roll, self._board, self._seat_of, self._say, self._show
-        )
+        orders = Orders(self._say, self._show)
+        self._front = Front(options, self._roll, self._board, self._seat_of, orders)
         self._loop = asyncio.new_event_loop()
         self._stopped = threading.Event()
         self._thread = threading.Thread(

@@ -9,19 +9,23 @@ from __future__ import annotations
 
 import asyncio
 import http
-import os
-import tempfile
 from asyncio import StreamReader, StreamWriter
 from collections import Counter
-from collections.abc import Awaitable, Callable, Mapping
-from contextlib import suppress
-from pathlib import Path
-from urllib.parse import parse_qs, unquote
+from collections.abc import Awaitable, Callable
+from urllib.parse import unquote
 
 from websockets.http11 import Request, Response
 
 from sambot_viz import limits, page
-from sambot_viz.classroom.board import Board, event
+from sambot_viz.classroom.board import Board
+from sambot_viz.classroom.board_pages import (
+    ASKED,
+    BoardPages,
+    Orders,
+    html,
+    no_page,
+    refused,
+)
 from sambot_viz.classroom.requests import (
     BadRequestError,
     answer,
@@ -31,7 +35,6 @@ from sambot_viz.classroom.requests import (
 )
 from sambot_viz.classroom.roll import TEACHER, Roll, Student
 from sambot_viz.classroom.seat_process import SeatAddress
-from sambot_viz.content_policy import strict_policy
 from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.options import Options
 from sambot_viz.server.connections.page_files import plain_page
@@ -41,12 +44,10 @@ from sambot_viz.server.protection.token_check import TokenCheck, remembered
 from sambot_viz.server.readiness import ServerState, readiness, stopping
 from sambot_viz.text import text
 
-ASKED = "Sambot-Class"
-"""A header that our own pages send: no page of another origin can send it."""
 LOOK = "/student/"
 """The seats of others are below this path."""
-_ALIVE = 15.0
-"""Longest silence towards a board [s]: some proxies close silent connections."""
+_DRAIN = 15.0
+"""Longest time that a visitor may take for an answer [s]."""
 _CLOSED = 2.0
 _Streams = tuple[StreamReader, StreamWriter]
 
@@ -59,8 +60,7 @@ class Front:
         roll: the students of the class.
         board: the teacher's board.
         seat_of: opens a student's seat, unless it is open.
-        say: shows a sentence to one student, or to all with 0.
-        show: shows one student's seat to the class, or none with 0.
+        orders: carries out the teacher's orders.
 
     Attributes:
         state: whether the server shows the lesson, or is stopping.
@@ -74,11 +74,10 @@ class Front:
         roll: Roll,
         board: Board,
         seat_of: Callable[[Student], Awaitable[SeatAddress]],
-        say: Callable[[int, str], None],
-        show: Callable[[int], None],
+        orders: Orders,
     ) -> None:
         self._options, self._roll, self._board = options, roll, board
-        self._seat_of, self._say, self._show = seat_of, say, show
+        self._seat_of, self._pages = seat_of, BoardPages(board, orders)
         secrets = (options.token, options.presenter, options.base_path)
         self._check = TokenCheck(*secrets)
         self._open: set[asyncio.Task[None]] = set()
@@ -129,13 +128,15 @@ class Front:
             if where == "/join":
                 found = self._join(request)
             elif where.startswith("/board"):
-                found = await self._of_board(request, where, query, writer)
+                found = no_page()
+                if self._check.is_presenter(request):
+                    found = await self._pages.answer(request, where, query, writer)
             else:
                 found = await self._go_on(request, path, (reader, writer))
         if found is not None:
             found.headers["Connection"] = "close"
             writer.write(found.serialize())
-            await asyncio.wait_for(writer.drain(), _ALIVE)
+            await asyncio.wait_for(writer.drain(), _DRAIN)
 
     # Students
 
@@ -149,16 +150,16 @@ class Front:
     def _join(self, request: Request) -> Response:
         given = request.headers.get_all(ASKED)
         if len(given) != 1:
-            return _refused("Open the address of the class, and type your name there.")
+            return refused("Open the address of the class, and type your name there.")
         student, more = self._student(request), dict[str, str]()
         if student is None:
             try:
                 name = unquote(given[0], errors="strict")
                 student, key = self._roll.add(name)
             except UnicodeDecodeError:
-                return _refused("type your name")
+                return refused("type your name")
             except UsageError as error:
-                return _refused(str(error))
+                return refused(str(error))
             self._board.look_up(student)
             base = self._options.base_path
             cookie = remembered(self._roll.cookie, key, base, request.headers)
@@ -174,17 +175,17 @@ class Front:
             number, slash, rest = path.removeprefix(LOOK).partition("/")
             wanted = int(number) if number.isdecimal() and len(number) < 6 else 0
             if wanted not in self._roll.students or not slash:
-                return _no_page()
+                return no_page()
             if not teaches and (own is None or wanted != self._board.shown):
-                return _no_page()
+                return no_page()
             name = TEACHER if teaches else own.name if own is not None else ""
             looks = (wanted, f"/{rest}", name, False)
         elif own is not None:
             looks = (own.number, path, own.name, True)
         elif path.partition("?")[0] in ("/", "/index.html"):
-            return _html(page.name_form(self._board.title))
+            return html(page.name_form(self._board.title))
         else:
-            return _no_page()
+            return no_page()
         return await self._pipe(request, streams, *looks, counted=0 if teaches else own)
 
     async def _pipe(
@@ -223,93 +224,3 @@ class Front:
         finally:
             self._connections[who] -= 1
         return None
-
-    # The teacher
-
-    async def _of_board(
-        self, request: Request, where: str, query: str, writer: StreamWriter
-    ) -> Response | None:
-        if not self._check.is_presenter(request):
-            return _no_page()
-        if where == "/board":
-            return access.plain(http.HTTPStatus.SEE_OTHER, "See there.", "./board/")
-        if where == "/board/":
-            return _html(page.board(self._board.title))
-        if where == "/board/rows":
-            await self._follow(writer)
-            return None
-        if where == "/board/class.csv":
-            return _download(self._board.csv(), "text/csv", "class.csv")
-        if where == "/board/class.zip":
-            return await self._collected()
-        if where not in ("/board/say", "/board/show") or ASKED not in request.headers:
-            return _no_page()
-        fields = {name: values[-1] for name, values in parse_qs(query).items()}
-        return self._do(where, fields)
-
-    def _do(self, where: str, fields: Mapping[str, str]) -> Response:
-        number = fields.get("number", "0")
-        wanted = int(number) if number.isdecimal() and len(number) < 6 else -1
-        if wanted and wanted not in self._roll.students:
-            return _refused("this student is not in the class")
-        if where == "/board/show":
-            self._show(wanted)
-            return answer(b"")
-        said = text(fields.get("text", ""), limits.CLASS_MESSAGE.value + 1).strip()
-        if not 0 < len(said) <= limits.CLASS_MESSAGE.value:
-            most = limits.CLASS_MESSAGE.value
-            return _refused(f"a message has from 1 to {most} characters")
-        self._say(wanted, said)
-        return answer(b"")
-
-    async def _follow(self, writer: StreamWriter) -> None:
-        """Send all rows, then each changed row."""
-        head = answer(b"", "text/event-stream", more={"X-Accel-Buffering": "no"})
-        del head.headers["Content-Length"]
-        head.headers["Connection"] = "close"
-        follower = self._board.follow()
-        try:
-            writer.write(head.serialize() + event(self._board.begin()))
-            while True:
-                await writer.drain()
-                numbers = await follower.changed(_ALIVE)
-                rows = (event({"row": self._board.row(number)}) for number in numbers)
-                writer.write(b"".join(rows) or b":\n\n")
-        finally:
-            follower.close()
-
-    async def _collected(self) -> Response:
-        handle, name = tempfile.mkstemp(suffix=".zip")
-        os.close(handle)
-        try:
-            await asyncio.to_thread(self._board.collect, Path(name))
-            content = await asyncio.to_thread(Path(name).read_bytes)
-        except (OSError, SambotVizError) as error:
-            return _refused(f"the files cannot be collected: {error}")
-        finally:
-            with suppress(OSError):
-                os.unlink(name)
-        return _download(content, "application/zip", "class.zip")
-
-
-def _html(content: bytes) -> Response:
-    more = {"Content-Security-Policy": strict_policy("class")}
-    return answer(content, "text/html", more=more)
-
-
-def _download(content: bytes, kind: str, name: str) -> Response:
-    shown = f'attachment; filename="{name}"'
-    return answer(content, kind, more={"Content-Disposition": shown})
-
-
-def _refused(sentence: str) -> Response:
-    return answer(text(sentence).encode(), status=http.HTTPStatus.BAD_REQUEST)
-
-
-def _no_page() -> Response:
-    return plain_page(
-        http.HTTPStatus.NOT_FOUND,
-        "There is nothing here for you",
-        "Students open the address of the class; the teacher opens that of the board, "
-        "as sambot-viz has printed it.",
-    )

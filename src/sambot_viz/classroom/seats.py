@@ -48,9 +48,9 @@ class Seats:
         if order["do"] == "open":
             self._open(number, Path(order["folder"]))
         elif number in self._seats and order["do"] == "say":
-            self._seats[number].say(order["text"])
+            self._seats[number].page.say(order["text"])
         elif number in self._seats and order["do"] == "point":
-            self._seats[number].point_to(order["link"], order["name"])
+            self._seats[number].page.point_to(order["link"], order["name"])
 
     def _open(self, number: int, folder: Path) -> None:
         tell = partial(self._tell, number)
