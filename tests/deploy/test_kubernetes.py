@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import re
 from collections.abc import Iterator
@@ -11,6 +12,7 @@ from typing import Any, cast
 import pytest
 import yaml
 
+from sambot_viz.classroom.hub import SCOPES, Hub
 from sambot_viz.commands.command_line import parse
 from sambot_viz.commands.show import parser
 from sambot_viz.server.readiness import ANSWERS, READY
@@ -88,6 +90,59 @@ def test_the_values_fit_what_was_measured(folder: Path) -> None:
     assert megabytes(large["mem_limit"]) > max(measured) + 3 * 500
     mounted = {one["name"] for one in student["storage"]["extraVolumeMounts"]}
     assert mounted == {one["name"] for one in student["storage"]["extraVolumes"]}
+
+
+def test_the_board_is_the_service_that_the_hub_shows(
+    repository: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    values: Any = yaml.safe_load((folder / "values.yaml").read_text("utf-8"))
+    text = (folder / "board.yaml").read_text("utf-8")
+    claim, service, pods, policy = yaml.safe_load_all(text)
+    pod = pods["spec"]["template"]
+    (container,) = pod["spec"]["containers"]
+    # The hub sends requests to the service, which sends them to the pod.
+    ((name, shown),) = values["hub"]["services"].items()
+    (port,) = service["spec"]["ports"]
+    assert shown["url"] == f"http://{service['metadata']['name']}:{port['port']}"
+    labels = pod["metadata"]["labels"]
+    for selector in (
+        service["spec"]["selector"],
+        pods["spec"]["selector"]["matchLabels"],
+        policy["spec"]["podSelector"]["matchLabels"],
+    ):
+        assert selector.items() <= labels.items()
+    # The program understands its words and its variables.
+    for row in container["env"]:
+        monkeypatch.setenv(row["name"], row.get("value", "a-secret-of-the-cluster"))
+    first, *words = container["args"]
+    command = importlib.import_module(f"sambot_viz.commands.{first}")
+    given, options = parse(command.parser(), words)
+    assert given.hub and (options.host, options.port) == ("0.0.0.0", port["port"])
+    hub = Hub.of_environment()
+    assert hub.prefix == f"/services/{name}"
+    keys = [row["valueFrom"]["secretKeyRef"]["key"] for row in container["env"][2:]]
+    assert keys == [f"hub.services.{name}.apiToken", "secret"]
+    # It may do what it asks for, and no more.
+    role = values["hub"]["loadRoles"][name]
+    assert role == {"services": [name], "scopes": SCOPES.split(", ")}
+    # Students and the board have one volume, and one lesson.
+    student = values["singleuser"]
+    (mount,) = [
+        one
+        for one in student["storage"]["extraVolumeMounts"]
+        if one["mountPath"].endswith("lesson")
+    ]
+    assert mount["subPath"] == "{username}"
+    volumes = student["storage"]["extraVolumes"] + pod["spec"]["volumes"]
+    claims = [v["persistentVolumeClaim"] for v in volumes if v["name"] == "class"]
+    assert {one["claimName"] for one in claims} == {claim["metadata"]["name"]}
+    assert student["extraEnv"]["SAMBOT_VIZ_LESSON"] == given.lesson
+    home = student["extraEnv"]["SAMBOT_VIZ_MODEL"].replace("~", "/home/jovyan")
+    assert mount["mountPath"] == home
+    mounts = {one["mountPath"]: one for one in container["volumeMounts"]}
+    assert given.dir in mounts and mounts[given.dir]["readOnly"]
+    asked = [container[f"{of}Probe"]["httpGet"] for of in ("liveness", "readiness")]
+    assert [one["path"] for one in asked] == [ANSWERS, READY]
 
 
 def test_pods_are_asked_where_the_program_answers(

@@ -9,7 +9,9 @@ from a_jupyter import wait_until
 from inside import session_of
 
 from sambot_viz import Visualizer
-from sambot_viz.jupyter.__main__ import model_of
+from sambot_viz.commands import lesson as lesson_command
+from sambot_viz.commands.command_line import parse
+from sambot_viz.jupyter.__main__ import lesson_words, model_of
 
 ARM = '<robot name="arm"><link name="a"/></robot>'
 
@@ -54,6 +56,25 @@ def test_otherwise_the_log_says_why_it_is_the_bundled_robot(
     said = capsys.readouterr().err
     assert said.startswith("sambot-viz: note: the bundled sam_bot is shown; ")
     assert why in said
+
+
+@pytest.mark.parametrize(
+    ("lesson", "named", "own"),
+    [
+        ("nav2-first-robot", "", "nav2-first-robot"),
+        ("~/course/first/", "", "first"),
+        ("nav2-first-robot", "~/lesson", "~/lesson"),
+    ],
+)
+def test_a_lesson_is_shown_in_the_folder_of_the_student(
+    folder: Path, lesson: str, named: str, own: str
+) -> None:
+    words = lesson_words(folder, lesson, named)
+    where = folder / Path(own).expanduser()
+    assert words[2:] == ["--report", "--dir", str(where)]
+    assert words[:2] == ["lesson", str(Path(lesson).expanduser())]
+    given = parse(lesson_command.parser(), words[1:])[0]
+    assert given.report and given.dir == str(where)
 
 
 def test_the_page_shows_what_is_noted_beside_the_problems_of_the_model(

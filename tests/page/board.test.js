@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { ago, problems, sorted, summary } from "../../src/sambot_viz/page/board/rows.js";
+import { ago, presence, problems, sorted, summary } from "../../src/sambot_viz/page/board/rows.js";
 
 /** @param {Partial<import("../../src/sambot_viz/page/board/rows.js").BoardRow>} fields @returns {any} */
 const row = (fields) => ({ errors: 0, warnings: 0, pages: 1, step: 1, stuck: false, ...fields });
@@ -32,4 +32,12 @@ test("problems and times are said in few words", () => {
 test("the class is said in a line", () => {
   const rows = [row({ stuck: true }), row({ step: 3, stuck: true, pages: 0 })];
   assert.equal(summary(rows, 2), "2 students, 1 here, 1 stuck, 1 done");
+});
+
+test("a row says where its student is", () => {
+  assert.equal(presence(row({ pages: 2, server: "" })), 2);
+  assert.equal(presence(row({ pages: 0, server: "" })), "away");
+  assert.equal(presence(row({ pages: 1, server: "does not answer" })), "does not answer");
+  const rows = [row({ pages: 1, server: "does not answer" }), row({ pages: 1, server: "" })];
+  assert.match(summary(rows, 3), /^2 students, 1 here/);
 });

@@ -239,7 +239,7 @@ class Hub:
         """What a server answers to the service."""
         headers = {"Authorization": f"token {self.token}"}
         status, text = ask(f"{self.url}{path}", method, body, headers)
-        assert status < 300, (status, text)
+        assert status < 300, (status, text, self.place.log)
         return json.loads(text) if text else None
 
     def log_in(self, name: str) -> User:
@@ -294,7 +294,8 @@ def _proxy_of_the_hub() -> list[str]:
     return [f"{node}/bin/node", str(program)]
 
 
-def _free_ports(count: int) -> list[int]:
+def free_ports(count: int) -> list[int]:
+    """Some ports that no program has now."""
     with contextlib.ExitStack() as stack:
         probes = [stack.enter_context(socket.socket()) for _ in range(count)]
         for probe in probes:
@@ -303,15 +304,21 @@ def _free_ports(count: int) -> list[int]:
 
 
 @contextmanager
-def a_hub(place: Place) -> Generator[Hub]:
-    """A JupyterHub on this machine only; all its users have one password."""
+def a_hub(place: Place, *lines: str) -> Generator[Hub]:
+    """A JupyterHub on this machine only; all its users have one password.
+
+    Args:
+        place: where it runs.
+        lines: more lines of its configuration.
+    """
     # Another program may take a port before the hub does.
     for _ in range(3):
         token = secrets.token_hex(16)
-        ports = _free_ports(3)
+        ports = free_ports(3)
         url = f"http://127.0.0.1:{ports[0]}/"
         config = place.folder / "hub.py"
-        config.write_text(_hub_settings(place, ports, token), "utf-8")
+        text = "\n".join([_hub_settings(place, ports, token), *lines])
+        config.write_text(text, "utf-8")
         with place.running(["-m", "jupyterhub", "-f", str(config)], {}) as process:
             started = partial(_has_ended_or_answers, process, f"{url}hub/api/")
             wait_until(started)
@@ -346,7 +353,11 @@ def _hub_settings(place: Place, ports: Sequence[int], token: str) -> str:
         "Spawner.environment": {name: environment[name] for name in kept},
         "JupyterHub.services": [{"name": "test", "api_token": token}],
         "JupyterHub.load_roles": [
-            {"name": "test", "services": ["test"], "scopes": ["access:servers"]}
+            {
+                "name": "test",
+                "services": ["test"],
+                "scopes": ["access:servers", "servers"],
+            }
         ],
     }
     lines = [f"c.{name} = {value!r}" for name, value in settings.items()]

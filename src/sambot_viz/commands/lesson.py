@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from sambot_viz.bundled import assets_folder
@@ -89,6 +90,12 @@ def parser() -> Parser:
         help="with a lesson: your folder; by default a new one with the name of the "
         "lesson",
     )
+    made.add_argument(
+        "--report",
+        action="store_true",
+        help="with a lesson: save what is typed by itself, and write its state into "
+        "your folder, for the board of sambot-viz class --hub",
+    )
     made.add_open()
     made.add_format()
     return made
@@ -110,12 +117,18 @@ def _learn(given: Namespace, options: Options) -> int:
     if given.path is not None:
         raise UsageError(f"name your folder with --dir: --dir {given.path}")
     folder = Path(given.dir or lesson.name)
-    options = options.learning(Study.begun(lesson, folder, given.track))
+    study = Study.begun(lesson, folder, given.track)
+    options = options.learning(study)
     write_err(f"sambot-viz: your files are in {folder}; you begin with {options.model}")
-    # The import is late: the other actions need no page.
+    # The imports are late: the other actions need no page.
     from sambot_viz.commands.show import serve
 
-    serve(options, given.open)
+    if not given.report:
+        serve(options, given.open)
+        return 0
+    from sambot_viz.classroom.student_page import reported
+
+    serve(options, given.open, partial(reported, study))
     return 0
 
 

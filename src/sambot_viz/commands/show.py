@@ -9,7 +9,12 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Generator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import (
+    AbstractContextManager,
+    contextmanager,
+    nullcontext,
+    suppress,
+)
 from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +29,7 @@ from sambot_viz.waiting import wait_for
 
 if TYPE_CHECKING:
     from sambot_viz.server.reference import ReferenceModel
+    from sambot_viz.visualizer import Visualizer
 
 EPILOG = """\
 NAME:=VALUE, anywhere on the line, is an argument for xacro, as in ros2 launch.
@@ -110,12 +116,17 @@ def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
     return 0
 
 
-def serve(options: Options, open_it: bool) -> None:
+def serve(
+    options: Options,
+    open_it: bool,
+    beside: Callable[[Visualizer], AbstractContextManager[object]] = nullcontext,
+) -> None:
     """Show the page of some options until Ctrl-C.
 
     Args:
         options: the inputs; while their files are followed, changes are reported.
         open_it: whether to open the page in this machine's browser.
+        beside: what else is done as long as the page is shown.
     """
     _return_large_blocks()
     if options.follow is not None:
@@ -127,11 +138,16 @@ def serve(options: Options, open_it: bool) -> None:
     options = options.having(on_reload=report)
     write_records(options.log_format == "json")
     with Inputs(options, may_be_broken=options.watch) as inputs:
-        _serve(inputs, report, open_it)
+        _serve(inputs, report, open_it, beside)
     _report_recording(inputs)
 
 
-def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
+def _serve(
+    inputs: Inputs,
+    report: _Reports,
+    open_it: bool,
+    beside: Callable[[Visualizer], AbstractContextManager[object]],
+) -> None:
     """Show the page until Ctrl-C; with `open_it` in this machine's browser."""
     options = inputs.options
     # The port is opened first; the rest of the program is imported, and the robot
@@ -146,7 +162,10 @@ def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
             from sambot_viz.commands.first_notes import write_notes
             from sambot_viz.visualizer import Visualizer
 
-            with Visualizer.of_inputs(inputs, listener) as visualizer:
+            with (
+                Visualizer.of_inputs(inputs, listener) as visualizer,
+                beside(visualizer),
+            ):
                 _report_start(inputs, report, visualizer.server.sessions.reference)
                 write_notes(stop, inputs, visualizer.server.sessions)
                 wait_for(stop)
@@ -325,6 +344,22 @@ def announce(
             _invite(*links(reachable_at(options.host)))
         if options.token is None:
             write_err(*(line.format(port) for line in _OPEN_TO_ALL))
+
+
+def announce_board(options: Options, port: int, open_it: bool) -> None:
+    """Write the addresses of a board, which only its teacher opens.
+
+    Args:
+        options: the address, and the secret of the link.
+        port: the port of the server.
+        open_it: whether to open the board in this machine's browser.
+    """
+    from sambot_viz.server.listener import page_url, public_url
+
+    _announce(page_url(options, "", port, "/board", presenter=True), open_it)
+    public = public_url(options, "/board", presenter=True)
+    if public is not None:
+        write_err(f"sambot-viz: from other machines: {public}")
 
 
 def _announce(url: str, open_it: bool, whose: str = "") -> None:

@@ -1,7 +1,8 @@
 """The viewer behind the tile: ``python -m sambot_viz.jupyter FOLDER FLAG...``.
 
 It shows the model of the variable SAMBOT_VIZ_MODEL, or else the one in the folder, or
-else the bundled robot, and ends with the Jupyter server.
+else the bundled robot, and ends with the Jupyter server. With SAMBOT_VIZ_LESSON it
+shows that lesson, and SAMBOT_VIZ_MODEL names the folder of the student's files.
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ from sambot_viz.outlet import write_err
 
 MODEL = "SAMBOT_VIZ_MODEL"
 """The variable that names a model file or a package folder."""
+LESSON = "SAMBOT_VIZ_LESSON"
+"""The variable that names a lesson, as `sambot-viz lesson` takes it."""
 ENDED = 1
 """Also of a viewer that was ended by a signal: jupyter-server-proxy starts one again
 that has not ended with 0, and would show an error for ever otherwise."""
@@ -38,10 +41,26 @@ def main(words: Sequence[str]) -> int:
     """
     folder, *flags = words
     threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
-    model, notes = model_of(Path(folder), os.environ.get(MODEL, ""))
-    named = [] if model is None else ["--model", str(model)]
-    code = cli.main([*flags, *named], notes)
-    return code or ENDED
+    named, lesson = os.environ.get(MODEL, ""), os.environ.get(LESSON, "")
+    if lesson:
+        return cli.main([*lesson_words(Path(folder), lesson, named), *flags]) or ENDED
+    model, notes = model_of(Path(folder), named)
+    more = [] if model is None else ["--model", str(model)]
+    return cli.main([*flags, *more], notes) or ENDED
+
+
+def lesson_words(folder: Path, lesson: str, named: str) -> list[str]:
+    """Return the words that show a lesson, and report on it to a teacher's board.
+
+    Args:
+        folder: the folder that JupyterLab shows.
+        lesson: name, file or folder of the lesson.
+        named: folder of the student's files, also relative to `folder`; "" for one
+            with the name of the lesson.
+    """
+    words = ["lesson", str(Path(lesson).expanduser()), "--report"]
+    own = folder / Path(named or Path(lesson).stem).expanduser()
+    return [*words, "--dir", str(own)]
 
 
 def model_of(folder: Path, named: str) -> tuple[Path | None, list[Problem]]:

@@ -88,6 +88,18 @@ CLASS_STUDENTS = LimitRow(
     "",
     "the next one is told that the class is full",
 )
+HUB_STUDENTS = LimitRow(
+    "students on the board of a hub",
+    1000,
+    "",
+    "the first ones are shown; the board says so",
+)
+HUB_ANSWER = LimitRow(
+    "an answer of a JupyterHub to the board",
+    4 * 1024 * 1024,
+    "bytes",
+    "it is not read; the board says that the hub does not list its users",
+)
 CLASS_CONNECTIONS = LimitRow(
     "connections of one student of a class",
     40,

@@ -2,11 +2,12 @@
 /* The teacher's board: a row for each student, live; who is stuck for longest comes first. */
 
 import { html, render, useEffect, useRef, useState } from "../vendor/preact.js";
-import { ago, problems, sorted, summary } from "./rows.js";
+import { ago, presence, problems, sorted, summary } from "./rows.js";
 
 /**
  * @typedef {import("./rows.js").BoardRow} BoardRow
- * @typedef {{lesson: string, steps: number, points: number, folder: string}} Class
+ * @typedef {{lesson: string, steps: number, points: number, folder: string,
+ *   trouble: string, reaches: boolean}} Class reaches: whether orders reach the students' pages
  */
 
 /** The server's limit is the same [characters]. */
@@ -48,6 +49,8 @@ function useBoard() {
           ahead.current = said.now - Date.now() / 1000;
           setKnown(said);
           setRows(said.rows);
+        } else if ("trouble" in said) {
+          setKnown((/** @type {Class | null} */ before) => before && { ...before, ...said });
         } else {
           const { row } = said;
           setRows((/** @type {BoardRow[]} */ before) => [
@@ -92,7 +95,7 @@ function Board() {
       <h1>${known.lesson}</h1>
       <p class="soft" role="status">${summary(rows, known.steps)}</p>
       <div class="buttons">
-        <button onClick=${() => setWrites("all")}>Message to all</button>
+        ${known.reaches && html`<button onClick=${() => setWrites("all")}>Message to all</button>`}
         ${shown && html`<button onClick=${() => show(0)}>${`Stop showing ${shown.name}`}</button>`}
         <a class="button" href="class.csv" download>CSV</a>
         <button disabled=${collects} onClick=${collect}
@@ -100,14 +103,18 @@ function Board() {
           ${collects ? "Collecting…" : "Collect all (zip)"}</button>
       </div>
       ${!live && html`<p class="error" role="alert">The connection is lost; trying again…</p>`}
+      ${known.trouble && html`<p class="error" role="alert">${known.trouble}</p>`}
       ${said && html`<p class="error" role="alert">${said}</p>`}
     </header>
     ${
       rows.length
         ? html`<${Table} rows=${rows} known=${known} now=${now} look=${setLooked}
             write=${setWrites} show=${show} />`
-        : html`<p class="empty">Nobody is here yet. Students open the address of the class, which
-            sambot-viz has printed; their files come into ${known.folder}.</p>`
+        : html`<p class="empty">Nobody is here yet. ${
+            known.reaches
+              ? "Students open the address of the class, which sambot-viz has printed"
+              : "A row comes with each student who starts a server or opens the lesson"
+          }; their files come into ${known.folder}.</p>`
     }
     ${look && html`<${Look} row=${look} show=${show} write=${setWrites} close=${() => setLooked(0)} />`}
     ${writes && html`<${Write} to=${writes} close=${() => setWrites(null)} />`}
@@ -139,8 +146,12 @@ function Table({ rows, known, now, look, write, show }) {
     <tbody>${rows.map((row) => {
       const done = row.step > known.steps;
       return html`<tr key=${row.number} class=${done ? "done" : row.stuck ? "stuck" : ""}>
-        <td class="who"><button class="flat" onClick=${() => look(row.number)}
-          title=${`Look at what ${row.name} does`}>${row.name}</button></td>
+        <td class="who">${
+          known.reaches
+            ? html`<button class="flat" onClick=${() => look(row.number)}
+                title=${`Look at what ${row.name} does`}>${row.name}</button>`
+            : row.name
+        }</td>
         <td class="step" title=${row.title}><span class="soft">
           ${done ? "" : `${row.step}/${known.steps} `}</span>${row.title}</td>
         <td class=${row.errors ? "error" : "soft"} data-name="Problems" title=${row.first}>
@@ -149,12 +160,15 @@ function Table({ rows, known, now, look, write, show }) {
         <td data-name="Points">${row.points}</td>
         <td data-name="Last change">${ago(row.changed, now)}</td>
         <td data-name="No progress for">${done ? "–" : ago(row.since, now)}</td>
-        <td data-name="Pages" class=${row.pages ? "" : "soft"}>${row.pages || "away"}</td>
+        <td data-name="Pages" class=${row.pages && !row.server ? "" : "soft"}>${presence(row)}</td>
         <td class="do">
-          <button onClick=${() => look(row.number)}>Look</button>
-          <button aria-pressed=${row.shown} onClick=${() => show(row.shown ? 0 : row.number)}>
-            ${row.shown ? "Shown to all" : "Show to all"}</button>
-          <button onClick=${() => write(row)}>Message</button>
+          ${
+            known.reaches &&
+            html`<button onClick=${() => look(row.number)}>Look</button>
+              <button aria-pressed=${row.shown} onClick=${() => show(row.shown ? 0 : row.number)}>
+                ${row.shown ? "Shown to all" : "Show to all"}</button>
+              <button onClick=${() => write(row)}>Message</button>`
+          }
           ${row.trouble && html`<p class="error">${row.trouble}</p>`}
         </td></tr>`;
     })}</tbody></table>`;

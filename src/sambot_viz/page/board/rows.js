@@ -5,7 +5,7 @@
  * @typedef {{number: number, name: string, shown: boolean, order: number[], stuck: boolean,
  *   step: number, title: string, tries: number, points: number, errors: number,
  *   warnings: number, unmet: number, first: string, pages: number, changed: number,
- *   since: number, trouble: string}} BoardRow times are seconds since 1970, 0 for never
+ *   since: number, trouble: string, server: string}} BoardRow times are seconds since 1970, 0 for never
  */
 
 /** Who is stuck for longest comes first. @param {BoardRow[]} rows */
@@ -18,6 +18,9 @@ export function sorted(rows) {
 
 /** @param {number} count @param {string} noun */
 const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
+
+/** Where a student is: the open pages, or why none answers. @param {BoardRow} row */
+export const presence = ({ server, pages }) => server || pages || "away";
 
 /** What is wrong with a student's files now. @param {BoardRow} row */
 export function problems({ errors, warnings }) {
@@ -39,7 +42,7 @@ export function ago(at, now) {
 /** The whole class in a line. @param {BoardRow[]} rows @param {number} steps */
 export function summary(rows, steps) {
   const stuck = rows.filter((row) => row.stuck && row.step <= steps).length;
-  const here = rows.filter(({ pages }) => pages).length;
+  const here = rows.filter(({ pages, server }) => pages && !server).length;
   const done = rows.filter(({ step }) => step > steps).length;
   return `${counted(rows.length, "student")}, ${here} here, ${stuck} stuck, ${done} done`;
 }

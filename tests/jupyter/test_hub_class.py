@@ -1,0 +1,112 @@
+"""A class on a real JupyterHub: a lesson on each server, the board, and a restart."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import Request, urlopen
+
+import pytest
+from a_class import BoardRows, shown, write
+from a_jupyter import PYTHON, Hub, User, a_hub, a_place, free_ports, wait_until
+from lesson_files import BASE
+from patience import patience
+from protocol_client import ProtocolClient
+
+# The same of our own code, without a JupyterHub: tests/classroom/test_hub_board.py.
+pytestmark = pytest.mark.slow
+
+SECRET = "the-secret-of-the-teacher"
+MODEL = "robot.urdf"
+TEXT = '<robot name="ada"><link name="base_link"/></robot>'
+
+
+def board_lines(folder: Path, port: int) -> list[str]:
+    """Lines of the hub's configuration for a lesson, and its board as a service."""
+    words = [str(PYTHON), "-m", "sambot_viz", "class", str(BASE), "--hub"]
+    words += ["--dir", str(folder), "--port", str(port)]
+    service = {"name": "board", "url": f"http://127.0.0.1:{port}", "command": words}
+    service["environment"] = {"SAMBOT_VIZ_PRESENTER": SECRET}
+    scopes = ["list:users", "read:servers"]
+    role = {"name": "board", "services": ["board"], "scopes": scopes}
+    return [
+        f"c.JupyterHub.services.append({service!r})",
+        "for name in ('PATH', 'PYTHONPATH', 'SAMBOT_VIZ_TEST', 'TMPDIR'):",
+        "    value = c.Spawner.environment[name]",
+        "    c.JupyterHub.services[-1]['environment'][name] = value",
+        f"c.JupyterHub.load_roles.append({role!r})",
+        f"c.Spawner.environment['SAMBOT_VIZ_LESSON'] = {str(BASE)!r}",
+        "c.Spawner.environment['SAMBOT_VIZ_MODEL'] = (",
+        f"    lambda spawner: {str(folder)!r} + '/' + spawner.user.name",
+        ")",
+    ]
+
+
+@pytest.fixture(scope="module")
+def hub() -> Iterator[Hub]:
+    with a_place() as place:
+        folder = place.folder / "class"
+        folder.mkdir()
+        for name in ("ada", "ben"):
+            (place.folder / name).mkdir()
+        with a_hub(place, *board_lines(folder, *free_ports(1))) as running:
+            yield running
+
+
+@contextmanager
+def opened(user: User) -> Iterator[ProtocolClient]:
+    """Open the page of a user's lesson, as a browser does."""
+    path = f"user/{user.name}/robot-viewer/"
+    wait_until(lambda: user.ask(path)[0] == 200)
+    headers = {**user.cookies(path), "Origin": user.url.rstrip("/")}
+    port = urlsplit(user.url).port or 0
+    client = ProtocolClient(port, path=f"/{path}", headers=headers)
+    try:
+        client.wait_until(lambda: "lesson/text" in client.rows, 60.0)
+        yield client
+    finally:
+        client.close()
+
+
+@contextmanager
+def board_of(hub: Hub) -> Iterator[BoardRows]:
+    """Open the teacher's board, below the address of the hub."""
+    headers = {"Authorization": f"Bearer {SECRET}"}
+    request = Request(f"{hub.url}services/board/board/rows", headers=headers)
+    with urlopen(request, timeout=patience(60.0)) as lines:
+        yield BoardRows(lines)
+
+
+def test_the_board_follows_students_and_the_next_server_takes_up_their_work(
+    hub: Hub,
+) -> None:
+    ada, ben = hub.log_in("ada"), hub.log_in("ben")
+    file = hub.place.folder / "class" / "ada" / MODEL
+    with board_of(hub) as board:
+
+        def row(name: str) -> dict[str, object]:
+            found = (one for one in board.rows.values() if one["name"] == name)
+            return next(found, {})
+
+        board.until(lambda: row("ada") and row("ben"))
+        assert row("ben")["server"] == "no folder yet"
+        with opened(ada) as page:
+            write(page, TEXT)
+            board.until(lambda: row("ada")["pages"] == 1 and row("ada")["unmet"])
+            write(page, TEXT.replace("ada", "eve"))
+            # At once: what was not saved yet is saved by the end of the server.
+            hub.ask("hub/api/users/ada/server", method="DELETE")
+            board.until(lambda: row("ada")["server"] == "no server")
+        wait_until(lambda: 'name="eve"' in file.read_text())
+        assert not row("ada")["pages"]
+        assert board.trouble == ""
+        hub.ask("hub/api/users/ada/server", {}, "POST")
+        board.until(lambda: row("ada")["server"] == "")
+        with opened(ada) as page:
+            page.act("model/show", True)
+            page.wait_until(lambda: (shown(page, "model/text") or {}).get("text"))
+            assert 'name="eve"' in shown(page, "model/text")["text"]
+            board.until(lambda: row("ada")["pages"] == 1)
+    assert ben.name == "ben"
