@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 from urllib.error import HTTPError
 from urllib.request import Request, urlopen
@@ -21,18 +22,22 @@ Protocol = Callable[..., ProtocolClient]
 Counts = dict[tuple[str, tuple[str, ...]], float]
 
 
-def counts(viz: Visualizer, token: str = "") -> Counts:
-    """Return the samples by name and values of the labels."""
+def answered(viz: Visualizer, token: str = "") -> str:
+    """Return what the server answers."""
     headers = {"Authorization": f"Bearer {token}"} if token else {}
     address = f"http://127.0.0.1:{viz.viser.get_port()}/metrics"
     with urlopen(Request(address, headers=headers)) as answer:
         assert answer.headers["Content-Type"].startswith("text/plain")
-        families = text_string_to_metric_families(answer.read().decode())
-        return {
-            (sample.name, tuple(sample.labels.values())): sample.value
-            for family in families
-            for sample in family.samples
-        }
+        return answer.read().decode()
+
+
+def counts(viz: Visualizer, token: str = "") -> Counts:
+    """Return the samples by name and values of the labels."""
+    return {
+        (sample.name, tuple(sample.labels.values())): sample.value
+        for family in text_string_to_metric_families(answered(viz, token))
+        for sample in family.samples
+    }
 
 
 def test_a_page_and_what_it_was_sent_are_counted(
@@ -107,6 +112,29 @@ def test_a_source_is_counted_by_its_address_without_what_is_secret(
     before = counts(viz)[received]
     peer.play(1.0)
     eventually(lambda: counts(viz)[received] > before)
+
+
+LABELS = {"code", "severity", "source", "version"}
+"""All labels there are: what has none of them cannot name a person."""
+
+
+@pytest.mark.parametrize("name", ["Ada Lovelace", 'x"} 1', "code=\\n", "ada\\"])
+def test_no_name_of_a_person_and_no_secret_is_among_the_counts(
+    make_viz: Callable[..., Visualizer], name: str
+) -> None:
+    secrets = {"token": "the-token-of-the-lab", "presenter": "the-secret-of-ada"}
+    viz = make_viz(metrics=True, trust_user_header="X-User", **secrets)
+    known = {"Authorization": f"Bearer {secrets['token']}", "X-User": name}
+    with closing(ProtocolClient(viz.viser.get_port(), headers=known)) as client:
+        client.settle(viser_server(viz))
+        assert name in {row.get("name") for row in client.rows.values()}
+        text = answered(viz, secrets["token"])
+    assert "sambot_viz_pages 1.0" in text
+    for secret in (*secrets.values(), name, name.split()[0], "X-User"):
+        assert secret not in text
+    families = text_string_to_metric_families(text)
+    labels = {label for one in families for s in one.samples for label in s.labels}
+    assert labels <= LABELS
 
 
 def test_the_missing_library_is_named_with_its_installation(
