@@ -119,12 +119,18 @@ def test_the_board_is_the_service_that_the_hub_shows(
     given, options = parse(command.parser(), words)
     assert given.hub and (options.host, options.port) == ("0.0.0.0", port["port"])
     hub = Hub.of_environment()
-    assert hub.prefix == f"/services/{name}"
-    keys = [row["valueFrom"]["secretKeyRef"]["key"] for row in container["env"][2:]]
+    assert (hub.prefix, hub.client) == (f"/services/{name}", f"service-{name}")
+    keys = [
+        row["valueFrom"]["secretKeyRef"]["key"]
+        for row in container["env"]
+        if "valueFrom" in row
+    ]
     assert keys == [f"hub.services.{name}.apiToken", "secret"]
     # It may do what it asks for, and no more.
     role = values["hub"]["loadRoles"][name]
     assert role == {"services": [name], "scopes": SCOPES.split(", ")}
+    teachers = values["hub"]["loadRoles"]["teachers"]
+    assert teachers["scopes"] == [f"access:services!service={name}"]
     # Students and the board have one volume, and one lesson.
     student = values["singleuser"]
     (mount,) = [

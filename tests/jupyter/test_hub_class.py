@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from urllib.parse import urlsplit
 from urllib.request import Request, urlopen
 
 import pytest
 from a_class import BoardRows, shown, write
-from a_jupyter import PYTHON, Hub, User, a_hub, a_place, free_ports, wait_until
+from a_hub_class import SECRET, TEACHER, board_lines
+from a_jupyter import Hub, User, a_hub, a_place, free_ports, wait_until
 from lesson_files import BASE
 from patience import patience
 from protocol_client import ProtocolClient
@@ -18,30 +18,8 @@ from protocol_client import ProtocolClient
 # The same of our own code, without a JupyterHub: tests/classroom/test_hub_board.py.
 pytestmark = pytest.mark.slow
 
-SECRET = "the-secret-of-the-teacher"
 MODEL = "robot.urdf"
 TEXT = '<robot name="ada"><link name="base_link"/></robot>'
-
-
-def board_lines(folder: Path, port: int) -> list[str]:
-    """Lines of the hub's configuration for a lesson, and its board as a service."""
-    words = [str(PYTHON), "-m", "sambot_viz", "class", str(BASE), "--hub"]
-    words += ["--dir", str(folder), "--port", str(port)]
-    service = {"name": "board", "url": f"http://127.0.0.1:{port}", "command": words}
-    service["environment"] = {"SAMBOT_VIZ_PRESENTER": SECRET}
-    scopes = ["list:users", "read:servers"]
-    role = {"name": "board", "services": ["board"], "scopes": scopes}
-    return [
-        f"c.JupyterHub.services.append({service!r})",
-        "for name in ('PATH', 'PYTHONPATH', 'SAMBOT_VIZ_TEST', 'TMPDIR'):",
-        "    value = c.Spawner.environment[name]",
-        "    c.JupyterHub.services[-1]['environment'][name] = value",
-        f"c.JupyterHub.load_roles.append({role!r})",
-        f"c.Spawner.environment['SAMBOT_VIZ_LESSON'] = {str(BASE)!r}",
-        "c.Spawner.environment['SAMBOT_VIZ_MODEL'] = (",
-        f"    lambda spawner: {str(folder)!r} + '/' + spawner.user.name",
-        ")",
-    ]
 
 
 @pytest.fixture(scope="module")
@@ -49,9 +27,9 @@ def hub() -> Iterator[Hub]:
     with a_place() as place:
         folder = place.folder / "class"
         folder.mkdir()
-        for name in ("ada", "ben"):
+        for name in ("ada", "ben", TEACHER):
             (place.folder / name).mkdir()
-        with a_hub(place, *board_lines(folder, *free_ports(1))) as running:
+        with a_hub(place, *board_lines(BASE, folder, *free_ports(1))) as running:
             yield running
 
 
@@ -82,7 +60,7 @@ def board_of(hub: Hub) -> Iterator[BoardRows]:
 def test_the_board_follows_students_and_the_next_server_takes_up_their_work(
     hub: Hub,
 ) -> None:
-    ada, ben = hub.log_in("ada"), hub.log_in("ben")
+    ada, _ = hub.log_in("ada"), hub.log_in("ben")
     file = hub.place.folder / "class" / "ada" / MODEL
     with board_of(hub) as board:
 
@@ -109,4 +87,20 @@ def test_the_board_follows_students_and_the_next_server_takes_up_their_work(
             page.wait_until(lambda: (shown(page, "model/text") or {}).get("text"))
             assert 'name="eve"' in shown(page, "model/text")["text"]
             board.until(lambda: row("ada")["pages"] == 1)
-    assert ben.name == "ben"
+
+
+def test_a_teacher_opens_the_board_with_the_login_of_the_hub(hub: Hub) -> None:
+    path = "services/board/"
+    # One who is not logged in is sent to the hub.
+    assert "Sign in" in User(hub.url, TEACHER).ask(path)[1]
+    teacher = hub.log_in(TEACHER)
+    status, page = teacher.ask(path)
+    assert status == 200 and "board/board.js" in page
+    assert teacher.ask(f"{path}board/class.csv")[0] == 200
+    # A student is logged in too, and has no right to open it.
+    student = hub.log_in("ben")
+    status, page = student.ask(path)
+    assert status == 403
+    assert student.ask(f"{path}board/class.csv")[0] == 401
+    # Nobody is led into the login of another one.
+    assert student.ask(f"{path}oauth_callback?code=x&state=y")[0] == 403

@@ -27,6 +27,8 @@ class HubApi:
         status: of all answers.
         body: of all answers; None for the users.
         asked: number of questions.
+        codes: code of a login → token of the user.
+        logged_in: token → the user, as the hub describes it.
     """
 
     api: str
@@ -35,6 +37,21 @@ class HubApi:
     status: int = 200
     body: bytes | None = None
     asked: int = 0
+    codes: dict[str, str] = field(default_factory=dict[str, str])
+    logged_in: dict[str, dict[str, Any]] = field(default_factory=dict[str, Any])
+
+    def token_for(self, fields: dict[str, list[str]]) -> tuple[int, bytes]:
+        """Answer a board that has come back from a login."""
+        code, secret = fields["code"][0], fields["client_secret"][0]
+        assert fields["grant_type"] == ["authorization_code"]
+        if secret != self.token or code not in self.codes:
+            return 400, b'{"error": "invalid_grant"}'
+        return 200, json.dumps({"access_token": self.codes.pop(code)}).encode()
+
+    def user(self, authorization: str) -> tuple[int, bytes]:
+        """Answer who has a token."""
+        found = self.logged_in.get(authorization.removeprefix("token "))
+        return (403, b"{}") if found is None else (200, json.dumps(found).encode())
 
     def answer(self, query: str, authorization: str | None) -> tuple[int, bytes]:
         self.asked += 1
@@ -65,9 +82,19 @@ def a_hub_api() -> Generator[HubApi]:
     class Handler(BaseHTTPRequestHandler):
         def do_GET(self) -> None:
             found = urlsplit(self.path)
-            assert found.path == "/hub/api/users"
             known = self.headers["Authorization"]
-            status, body = hub.answer(found.query, known)
+            if found.path == "/hub/api/user":
+                self._write(*hub.user(known))
+                return
+            assert found.path == "/hub/api/users"
+            self._write(*hub.answer(found.query, known))
+
+        def do_POST(self) -> None:
+            assert self.path == "/hub/api/oauth2/token"
+            content = self.rfile.read(int(self.headers["Content-Length"]))
+            self._write(*hub.token_for(parse_qs(content.decode())))
+
+        def _write(self, status: int, body: bytes) -> None:
             self.send_response(status)
             self.send_header("Content-Length", str(len(body)))
             self.end_headers()

@@ -242,15 +242,16 @@ class Hub:
         assert status < 300, (status, text, self.place.log)
         return json.loads(text) if text else None
 
-    def log_in(self, name: str) -> User:
-        """Log in with the form, and start the server of the user."""
+    def log_in(self, name: str, timeout: float = QUICKLY) -> User:
+        """Log in with the form, and start the server of the user within a time [s]."""
         user = User(self.url, name)
         user.ask("hub/login")
         given = {"username": name, "password": PASSWORD, "_xsrf": user.cookie("_xsrf")}
         status, text = user.ask("hub/login", urllib.parse.urlencode(given).encode())
         assert status == 200 and "Sign in" not in text, (status, self.place.log)
         user.ask(f"hub/spawn/{name}")
-        wait_until(lambda: "jupyter-config-data" in user.ask(f"user/{name}/lab")[1])
+        path = f"user/{name}/lab"
+        wait_until(lambda: "jupyter-config-data" in user.ask(path)[1], timeout)
         return user
 
 

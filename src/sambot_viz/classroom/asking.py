@@ -28,6 +28,7 @@ def ask(
     patience: float,
     largest: int,
     headers: Mapping[str, str] = MappingProxyType({}),
+    data: bytes | None = None,
 ) -> tuple[int, bytes]:
     """Return the status and the content of an answer, whatever its status.
 
@@ -36,12 +37,13 @@ def ask(
         patience: longest time that the server may be silent [s].
         largest: the content ends after one byte more than this [bytes].
         headers: headers of the question.
+        data: content of a POST request; None for GET.
 
     Raises:
         OSError: the server does not answer.
         ValueError: it is not an address, or the answer is not HTTP.
     """
-    request = urllib.request.Request(address, headers=dict(headers))
+    request = urllib.request.Request(address, data, dict(headers))
     try:
         with _OPENER.open(request, timeout=patience) as answer:
             return answer.status, answer.read(largest + 1)

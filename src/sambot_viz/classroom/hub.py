@@ -14,7 +14,7 @@ from sambot_viz.classroom.asking import ask
 from sambot_viz.errors import ServerError, UsageError
 from sambot_viz.text import text
 
-_PATIENCE = 10.0
+PATIENCE = 10.0
 """Longest silence of the hub [s]."""
 _AT_ONCE = 200
 """Number of users in one answer; a hub may give fewer."""
@@ -33,11 +33,15 @@ class Hub:
         api: address of its REST API, without a slash at the end.
         token: secret of the service.
         prefix: path below which the hub shows the service.
+        client: name of the service in the hub's login; "" without that login.
+        base: path of the hub, with a slash at the end.
     """
 
     api: str
     token: str
     prefix: str = "/"
+    client: str = ""
+    base: str = "/"
 
     @classmethod
     def of_environment(cls) -> Hub:
@@ -46,9 +50,9 @@ class Hub:
         Raises:
             UsageError: no hub has.
         """
-        api, token, prefix = (
-            os.environ.get(f"JUPYTERHUB_{name}", "")
-            for name in ("API_URL", "API_TOKEN", "SERVICE_PREFIX")
+        names = ("API_URL", "API_TOKEN", "SERVICE_PREFIX", "CLIENT_ID", "BASE_URL")
+        api, token, prefix, client, base = (
+            os.environ.get(f"JUPYTERHUB_{name}", "") for name in names
         )
         if urlsplit(api).scheme not in ("http", "https") or not token:
             raise UsageError(
@@ -56,7 +60,8 @@ class Hub:
                 "or set JUPYTERHUB_API_URL, such as http://hub:8081/hub/api, and "
                 "JUPYTERHUB_API_TOKEN to the token of the service"
             )
-        return cls(api.rstrip("/"), token, prefix.rstrip("/") or "/")
+        base = f"{base.rstrip('/')}/"
+        return cls(api.rstrip("/"), token, prefix.rstrip("/") or "/", client, base)
 
     def users(self) -> dict[str, str]:
         """Return the state of each user's server by the user's name; "" if it runs.
@@ -77,7 +82,7 @@ class Hub:
         address = f"{self.api}/users?limit={_AT_ONCE}&offset={start}"
         largest = limits.HUB_ANSWER.value
         try:
-            status, content = ask(address, _PATIENCE, largest, headers)
+            status, content = ask(address, PATIENCE, largest, headers)
         except (OSError, ValueError) as error:
             raise ServerError(f"the hub does not answer: {text(error)}") from error
         if status in (401, 403):

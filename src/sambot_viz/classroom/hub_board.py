@@ -13,6 +13,7 @@ from websockets.http11 import Request, Response
 from sambot_viz.classroom.board import Board
 from sambot_viz.classroom.board_pages import BoardPages, no_page
 from sambot_viz.classroom.hub import Hub
+from sambot_viz.classroom.hub_login import HubLogin
 from sambot_viz.classroom.hub_roll import HubRoll
 from sambot_viz.classroom.one_port import OnePort
 from sambot_viz.lessons.lesson import Lesson
@@ -54,9 +55,16 @@ class HubBoard:
         self._board = Board(lesson, self._roll, track)
         self._pages = BoardPages(self._board, None)
         self._looked, self._looking = float("-inf"), asyncio.Lock()
-        self._check = TokenCheck("", options.presenter, options.base_path)
+        self._login = HubLogin(hub, options.base_path)
+        knows = self._login.knows if hub.client else None
+        self._check = TokenCheck("", options.presenter, options.base_path, knows)
         self._server = OnePort(
-            options, "sambot-viz-board", self._check, self._answer, self._follow
+            options,
+            "sambot-viz-board",
+            self._check,
+            self._answer,
+            self._follow,
+            self._enter if hub.client else None,
         )
         self.port = self._server.port
 
@@ -75,6 +83,11 @@ class HubBoard:
         self._server.stop()
 
     # On the loop
+
+    async def _enter(self, request: Request, path: str) -> Response | None:
+        if self._check.is_presenter(request):
+            return None
+        return await self._login.answer(request, path)
 
     async def _answer(
         self, request: Request, path: str, writer: StreamWriter

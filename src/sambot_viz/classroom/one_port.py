@@ -23,6 +23,9 @@ _DRAIN = 15.0
 Answer = Callable[[Request, str, StreamWriter], Awaitable[Response | None]]
 """Receives a request that may enter, its path below the base path, and the connection;
 returns None when the answer has been written."""
+Enter = Callable[[Request, str], Awaitable[Response | None]]
+"""Receives a request before its token is checked, and its path below the base path;
+returns None to have it checked."""
 
 
 class OnePort:
@@ -34,6 +37,7 @@ class OnePort:
         check: admits requests.
         answer: answers them, on the loop.
         beside: runs on the loop meanwhile; None for nothing.
+        enter: a login; None without one.
 
     Attributes:
         port: port it listens on; 0 for a socket in the file system.
@@ -49,9 +53,10 @@ class OnePort:
         check: TokenCheck,
         answer: Answer,
         beside: Callable[[], Coroutine[object, object, None]] | None = None,
+        enter: Enter | None = None,
     ) -> None:
         self._options, self._check, self._reply = options, check, answer
-        self._beside = beside
+        self._beside, self._enter = beside, enter
         self._socket = bound_socket(options)
         self._socket.listen()
         named = self._socket.getsockname()
@@ -113,6 +118,8 @@ class OnePort:
         path = without_base(request.path, self._options.base_path)
         found = readiness(request, path, "ready")
         found = found or access.refusal(request, self._options)
+        if found is None and self._enter is not None:
+            found = await self._enter(request, path)
         found = found or self._check.refusal(request)
         if found is not None:
             return found if isinstance(found, Response) else await found
