@@ -183,7 +183,19 @@ def test_the_board_says_which_scopes_its_service_lacks(hub: HubApi) -> None:
         Hub(hub.api, "another").users()
 
 
-@pytest.mark.parametrize("body", [b"", b"[]", b'{"items": 3}', b"[" * 100_000])
+PAGE = '{"items": [%s], "_pagination": {"next": null}}'
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        b"",
+        b"[]",
+        b'{"items": 3}',
+        b"[" * 100_000,
+        *((PAGE % item).encode() for item in ("3", "{}", '{"name": 1, "servers": 2}')),
+    ],
+)
 def test_an_answer_that_is_not_a_hubs_is_refused(hub: HubApi, body: bytes) -> None:
     hub.body = body
     with pytest.raises(ServerError, match="as expected"):

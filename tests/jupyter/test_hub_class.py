@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from urllib.parse import urlsplit
 from urllib.request import Request, urlopen
 
 import pytest
 from a_class import BoardRows, shown, write
 from a_hub_class import SECRET, TEACHER, board_lines
-from a_jupyter import Hub, User, a_hub, a_place, free_ports, wait_until
+from a_jupyter import PASSWORD, Hub, User, a_hub, a_place, free_ports, wait_until
 from lesson_files import BASE
 from patience import patience
 from protocol_client import ProtocolClient
+from recorded_page import RecordedPage
+
+from sambot_viz.export.devtools import BrowserError
 
 # The same of our own code, without a JupyterHub: tests/classroom/test_hub_board.py.
 pytestmark = pytest.mark.slow
@@ -104,3 +107,32 @@ def test_a_teacher_opens_the_board_with_the_login_of_the_hub(hub: Hub) -> None:
     assert student.ask(f"{path}board/class.csv")[0] == 401
     # Nobody is led into the login of another one.
     assert student.ask(f"{path}oauth_callback?code=x&state=y")[0] == 403
+
+
+def test_an_open_page_comes_back_by_itself_on_the_next_server(
+    hub: Hub, open_in_browser: Callable[[str], RecordedPage]
+) -> None:
+    hub.log_in("ben")
+    page = open_in_browser(f"{hub.url}hub/login")
+    page.wait_for("document.querySelector('[name=password]')", 30.0)
+    page.evaluate(
+        "document.querySelector('[name=username]').value = 'ben';"
+        f"document.querySelector('[name=password]').value = '{PASSWORD}';"
+        "document.querySelector('form').submit()"
+    )
+    page.wait_for("!location.pathname.endsWith('/login')", 30.0)
+    page.goto(f"{hub.url}user/ben/robot-viewer/")
+    is_open = "window.sambotViser?.state === 'open'"
+    page.wait_for(is_open, 60.0)
+    hub.ask("hub/api/users/ben/server", method="DELETE")
+    page.wait_for(f"!({is_open})", 60.0)
+    hub.ask("hub/api/users/ben/server", {}, "POST")
+
+    def is_back() -> bool:
+        # It may load itself again, when what answers first is a page of the hub.
+        with suppress(BrowserError):
+            return page.evaluate(is_open) is True
+        return False
+
+    wait_until(is_back)
+    assert page.evaluate("location.pathname") == "/user/ben/robot-viewer/"

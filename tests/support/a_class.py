@@ -145,14 +145,18 @@ class BoardRows:
         while not self.head:
             self._read()
 
-    def until(self, condition: Callable[[], T]) -> T:
+    def until(self, condition: Callable[[], T], timeout: float = 30.0) -> T:
         """Read what comes until a condition is true; it may be true already.
+
+        Args:
+            condition: what must become true.
+            timeout: how long that may take [s].
 
         Raises:
             AssertionError: it was not after some time. A silent board hears something
                 every 15 s, so a limit of the stream alone would never end this.
         """
-        end = time.monotonic() + patience(30.0)
+        end = time.monotonic() + patience(timeout)
         while not (value := condition()):
             assert time.monotonic() < end, f"the board shows {self.rows}"
             self._read()

@@ -21,6 +21,8 @@ _AT_ONCE = 200
 _PAGES = "application/jupyterhub-pagination+json"
 SCOPES = "list:users, read:servers"
 """What the service may do at the hub, in the hub's words."""
+_NOT_A_HUB = AttributeError, LookupError, RecursionError, TypeError, ValueError
+"""Errors of reading an answer that has not the fields of a hub's."""
 NO_SERVER, STARTS = "no server", "starts"
 """States of a user without a server that answers."""
 
@@ -72,11 +74,11 @@ class Hub:
         found: dict[str, str] = {}
         start: object = 0
         while isinstance(start, int) and len(found) < limits.HUB_STUDENTS.value:
-            items, start = self._users(start)
-            found.update((text(item.get("name", "")), _state(item)) for item in items)
+            some, start = self._users(start)
+            found |= some
         return found
 
-    def _users(self, start: int) -> tuple[list[Mapping[str, Any]], object]:
+    def _users(self, start: int) -> tuple[dict[str, str], object]:
         """Return some users, and where the next ones start; None after the last."""
         headers = {"Authorization": f"token {self.token}", "Accept": _PAGES}
         address = f"{self.api}/users?limit={_AT_ONCE}&offset={start}"
@@ -93,8 +95,9 @@ class Hub:
             read: Any = json.loads(content)
             items = cast("list[Mapping[str, Any]]", read["items"])
             after = read["_pagination"]["next"]
-            return [*map(dict, items)], after and max(after["offset"], start + 1)
-        except (ValueError, KeyError, TypeError, RecursionError) as error:
+            found = {text(item["name"]): _state(item) for item in items}
+            return found, after and max(after["offset"], start + 1)
+        except _NOT_A_HUB as error:
             raise ServerError("the hub does not list its users as expected") from error
 
 
