@@ -66,7 +66,9 @@ def load_again(viewer: ViewerPage) -> None:
     viewer.page.goto(viewer.url)
 
 
-@pytest.mark.parametrize("leave", [hide, close, load_again])
+@pytest.mark.parametrize(
+    "leave", [hide, close, pytest.param(load_again, marks=pytest.mark.slow)]
+)
 def test_a_robot_stops_when_the_page_that_drives_it_goes(
     viz: Visualizer,
     drive: Drive,
@@ -81,7 +83,7 @@ def test_a_robot_stops_when_the_page_that_drives_it_goes(
     other.user.reads(STOPPED)
 
 
-@pytest.mark.parametrize("leave", [hide, close])
+@pytest.mark.parametrize("leave", [pytest.param(hide, marks=pytest.mark.slow), close])
 def test_another_page_that_drives_keeps_the_robot_going(
     viz: Visualizer,
     drive: Drive,

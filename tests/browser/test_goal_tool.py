@@ -167,7 +167,12 @@ def test_a_goal_by_finger(
 
 @pytest.mark.parametrize(
     ("width", "height", "touch"),
-    [(1280, 800, False), (1024, 768, False), (1024, 768, True), (390, 844, True)],
+    [
+        (1280, 800, False),
+        pytest.param(1024, 768, False, marks=pytest.mark.slow),
+        (1024, 768, True),
+        (390, 844, True),
+    ],
 )
 def test_stop_and_cancel_keep_their_places_whatever_is_said_and_open(
     width: int,

@@ -91,7 +91,7 @@ def messages(points: int) -> Iterator[Message]:
         yield "/outline", kind, time, types[kind](header(store, x, "odom"), outline)
 
 
-@pytest.mark.parametrize("points", [10, 30_000])
+@pytest.mark.parametrize("points", [10, pytest.param(30_000, marks=pytest.mark.slow)])
 def test_a_step_is_one_picture(
     make_viz: Callable[..., Visualizer],
     open_viewer: Callable[..., ViewerPage],

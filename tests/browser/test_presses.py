@@ -15,7 +15,8 @@ from sambot_viz import Visualizer
 
 pytestmark = pytest.mark.browser
 
-SIZES = [(1280, 720), (1024, 768), (390, 844)]
+MIDDLE = pytest.param((1024, 768), marks=pytest.mark.slow)
+SIZES = [(1280, 720), MIDDLE, (390, 844)]
 TABS = ("Frames", "Selection", "Drive", "Tool Properties")
 BESIDE = ("Displays", "Views", "Problems")
 """Panels that are tabs only where the window is narrow."""

@@ -35,6 +35,7 @@ def is_near(desk: Desk, name: str, value: float, within: float = 0.01) -> bool:
     return abs(number(desk, name) - value) < within
 
 
+@pytest.mark.slow
 @pytest.mark.view
 def test_task_39_look_exactly_from_above(s: Desk) -> None:
     # The scale of an orthographic view is in pixels of the drawn picture.
@@ -67,6 +68,7 @@ def test_task_39_look_exactly_from_above(s: Desk) -> None:
     s.user.row("Views", "Current View", "Distance")
 
 
+@pytest.mark.slow
 @pytest.mark.view
 def test_task_40_the_mouse_as_in_rviz(s: Desk) -> None:
     set_number(s, "Distance", "3")

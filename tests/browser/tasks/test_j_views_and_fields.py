@@ -81,7 +81,14 @@ def choose_view(desk: Desk, kind: str) -> None:
 
 
 @pytest.mark.view
-@pytest.mark.parametrize("kind", ["XYOrbit", "ThirdPersonFollower", "FPS"])
+@pytest.mark.parametrize(
+    "kind",
+    [
+        pytest.param("XYOrbit", marks=pytest.mark.slow),
+        pytest.param("ThirdPersonFollower", marks=pytest.mark.slow),
+        "FPS",
+    ],
+)
 def test_task_67_look_at_a_robot_that_drives(s: Desk, kind: str) -> None:
     user, drive = s.user, s.session.drive
     choose_view(s, kind)

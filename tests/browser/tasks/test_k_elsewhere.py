@@ -24,6 +24,7 @@ def number(viewer: ViewerPage) -> str:
     return str(viewer.user.row("Joints", LEFT).one("textbox").value)
 
 
+@pytest.mark.slow
 def test_task_72_a_link_for_another_browser(
     s: Desk, open_more: Callable[..., ViewerPage]
 ) -> None:
@@ -43,6 +44,7 @@ def test_task_72_a_link_for_another_browser(
     )
 
 
+@pytest.mark.slow
 @pytest.mark.view
 def test_task_73_a_page_that_needs_no_program(s: Desk, chromium: Chromium) -> None:
     user = s.user
