@@ -12,6 +12,7 @@ from sambot_viz import check
 from sambot_viz.cli import main
 from sambot_viz.commands.sarif import sarif_log
 from sambot_viz.errors import Edit, Problem
+from sambot_viz.explanations import as_text
 
 Capture = pytest.CaptureFixture[str]
 WRONG = (
@@ -45,6 +46,7 @@ def test_a_log_has_a_run_with_the_tool_and_its_rules(
     assert driver["name"] == "sambot-viz" and driver["version"]
     assert [rule["id"] for rule in driver["rules"]] == ["element-misspelt"]
     assert driver["rules"][0]["shortDescription"] == {"text": "Element misspelt"}
+    assert driver["rules"][0]["help"] == {"text": as_text("element-misspelt")}
 
 
 def test_a_result_is_at_its_line_with_its_hint(model: Path, capsys: Capture) -> None:

@@ -11,6 +11,7 @@ from urllib.parse import quote
 from sambot_viz._version import __version__
 from sambot_viz.edits import SourceFile, source_of
 from sambot_viz.errors import Edit, Problem, Severity
+from sambot_viz.explanations import as_text, codes
 from sambot_viz.problems import in_order
 
 _SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
@@ -27,16 +28,16 @@ def sarif_log(problems: Iterable[Problem], model: Path) -> dict[str, Any]:
         model: the place of problems that are in no file.
     """
     results = in_order(problems)
-    codes = sorted({problem.code for problem in results})
+    found = sorted({problem.code for problem in results})
     driver = {
         "name": "sambot-viz",
         "version": __version__,
-        "rules": [_rule(code) for code in codes],
+        "rules": [_rule(code) for code in found],
     }
     run = {
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
-        "results": [_result(each, codes.index(each.code), model) for each in results],
+        "results": [_result(each, found.index(each.code), model) for each in results],
     }
     return {"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}
 
@@ -46,7 +47,7 @@ def _rule(code: str) -> dict[str, Any]:
     return {
         "id": code,
         "shortDescription": {"text": said},
-        "help": {"text": f"{said}: see docs/problems.md#{code} of sambot-viz"},
+        "help": {"text": as_text(code) if code in codes() else said},
     }
 
 
