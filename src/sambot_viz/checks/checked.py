@@ -28,6 +28,7 @@ from sambot_viz.robot.packages.package_index import package_around
 if TYPE_CHECKING:
     from sambot_viz.checks.around.surroundings import Surroundings
     from sambot_viz.checks.around.workspace import Package
+    from sambot_viz.checks.rule import Subject
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +80,7 @@ def check_all(
             problems += with_missing_names(error.problems, target)
             continue
         subject = subject_of(robot, target.model, None, target.packages)
-        of_model = [*robot.problems, *find_problems(subject, RULES)]
+        of_model = [*_of_files(subject), *find_problems(subject, RULES)]
         problems += of_model
         problems += wrong_variants(load, target, variants[1:], given, of_model)
         around = find_problems(subject, AROUND)
@@ -154,6 +155,18 @@ def _of_packages(targets: Targets, loaded: Sequence[_Loaded]) -> list[Problem]:
             problem for problem in one.around if _is_certain(problem, one, loaded)
         ]
     return found
+
+
+def _of_files(subject: Subject) -> list[Problem]:
+    """Return the problems of loading a model, as its installed package has it."""
+    if not subject.packages:
+        return list(subject.robot.problems)
+    # Import late: many models have no package.
+    from sambot_viz.checks.around.package_files.installed_meshes import (
+        without_installed,
+    )
+
+    return without_installed(subject.robot.problems, subject)
 
 
 def _alone(targets: Targets, loaded: Sequence[_Loaded]) -> list[Package]:

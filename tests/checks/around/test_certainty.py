@@ -712,3 +712,26 @@ def test_the_joint_state_publisher_takes_any_rate(copied: Copied) -> None:
         f"            spawn,\n            {node},",
     )
     assert "parameter-type" not in codes(package)
+
+
+@pytest.mark.parametrize(
+    ("installs", "found"),
+    [("DIRECTORY parts/meshes", False), ("DIRECTORY parts", True)],
+)
+def test_a_mesh_lies_where_the_build_installs_it(
+    copied: Copied, installs: str, found: bool
+) -> None:
+    package = copied("gz")
+    folder = package / "parts" / "meshes"
+    folder.mkdir(parents=True)
+    (folder / "lid.stl").write_bytes(bytes(84))
+    mesh = '<mesh filename="package://cart_description/meshes/lid.stl"/>'
+    edit(
+        package / MODEL,
+        "</robot>",
+        f'<link name="lid"><visual><geometry>{mesh}</geometry></visual></link><joint '
+        'name="lid_joint" type="fixed"><parent link="base_link"/><child link="lid"/>'
+        "</joint></robot>",
+    )
+    edit(package / "CMakeLists.txt", "DIRECTORY urdf", f"{installs} urdf")
+    assert ("file-by-path-only" in codes(package)) is found

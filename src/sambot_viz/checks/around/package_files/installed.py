@@ -49,7 +49,7 @@ def not_installed(around: Surroundings) -> Iterator[Problem]:
     used: dict[str, Place] = {}
     for path, user in sorted(_used(around), key=lambda u: (u[1].file, u[1].line)):
         used.setdefault(path, user)
-    installed = _installed(around) if used else None
+    installed = installed_by_build(around) if used else None
     if installed is None:
         return
     missing = {
@@ -307,7 +307,7 @@ def misspelt_targets(setup: SetupFile, around: Surroundings) -> Iterator[Problem
             )
 
 
-def _installed(around: Surroundings) -> Installed | None:
+def installed_by_build(around: Surroundings) -> Installed | None:
     """Return the installed files and folders; None when they are not certain."""
     share = f"share/{around.files.name}"
     made = partial(Installed, folder=around.files.folder, share=share)
