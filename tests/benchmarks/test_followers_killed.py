@@ -1,7 +1,8 @@
-"""Three followers behind nginx and 300 pages, while processes are killed at random.
+r"""Three followers behind nginx and 300 pages, while processes are killed at random.
 
     python -m pytest tests/benchmarks/test_followers_killed.py -s
-    SAMBOT_VIZ_KILLS=600 python -m pytest tests/benchmarks/test_followers_killed.py -s
+    SAMBOT_VIZ_KILLS=600 python -m pytest tests/benchmarks/test_followers_killed.py -s \
+        -o faulthandler_timeout=1200
 
 The robot turns its joint thirty times a second. Followers, the router, nginx and the
 origin are killed, one at a time, and started again. What is asserted does not depend on
