@@ -32,6 +32,8 @@ JOINT = "j/drivewhl_l_joint"
 VIEWERS, RATE, STEPS = 30, 30.0, 120
 SECONDS = 8.0
 """How long the robot turns for one figure [s]."""
+LONGEST = 300.0
+"""How long a busy machine may take to open a thousand pages [s]."""
 LOOKING = 30
 """So many of the pages look into what comes."""
 UNLIMITED = """
@@ -160,13 +162,17 @@ class Load:
         )
 
 
-def loaded(port: int, path: str, pages: int, *parts: Part) -> Load:
-    """Open pages, and measure what they cost."""
+def loaded(robot: Part, port: int, path: str, pages: int, *parts: Part) -> Load:
+    """Open pages while the robot stands, and measure what they cost once it turns."""
     looking = min(pages, LOOKING)
+    robot.tell("stay 1.0")
     with ExitStack() as stack:
         groups = [stack.enter_context(Visitors(port, path, looking, looks=True))]
         if pages > looking:
-            groups.append(stack.enter_context(Visitors(port, path, pages - looking)))
+            silent = Visitors(port, path, pages - looking, timeout=LONGEST)
+            groups.append(stack.enter_context(silent))
+        robot.tell("move")
+        time.sleep(1.0)
         for group in groups:
             group.look()
         before = [family_usage(part.pid) for part in parts]
@@ -191,8 +197,8 @@ def test_three_hundred_behind_three_followers_cost_what_thirty_cost_a_server(
     tmp_path: Path,
 ) -> None:
     with Site(tmp_path) as site:
-        thirty = loaded(site.origin_port, "/", 30, site.origin)
-        place = site.port, site.path
+        thirty = loaded(site.robot, site.origin_port, "/", 30, site.origin)
+        place = site.robot, site.port, site.path
         one = loaded(*place, 1, site.origin)
         many = loaded(*place, 300, *site.followers, site.nginx, site.origin)
     *followers, nginx, origin = many.cpu
@@ -219,12 +225,12 @@ def test_which_resource_of_one_server_ends_first(tmp_path: Path) -> None:
         server = Part("server", words, site.log)
         server.start()
         try:
-            found = [loaded(port, "/", pages, server) for pages in (1, 100, 300, 1000)]
+            found: list[Load] = []
+            for pages in (1, 100, 300, 1000):
+                found.append(loaded(site.robot, port, "/", pages, server))
+                print(f"\n  one server: {found[-1]}", flush=True)
         finally:
             server.kill()
-    print("\n  one server")
-    for one in found:
-        print(f"  {one}")
     few, most = found[1], found[-1]
     # Each page costs as much computing as before; the one core that Python uses ends.
     assert most.cost / most.frames <= 1.5 * few.cost / few.frames
