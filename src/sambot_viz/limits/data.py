@@ -155,6 +155,12 @@ RECORDING_FILES = LimitRow(
     "",
     "the others are not opened, with a warning",
 )
+WEB_PIECES = LimitRow(
+    "what is kept on the disk of a recording on a web server",
+    2**31,
+    "bytes",
+    "it is forgotten, and asked for again when it is needed",
+)
 FOLLOWED_PART = LimitRow(
     "a file of a recording that is followed on a web server",
     2**30,

@@ -428,8 +428,11 @@ class SourceRobot:
     def look_on(self) -> bool:
         """Look at one more second of a recording; False when enough was seen.
 
-        A jump then finds what it needs, and it is known whether the time goes back.
+        A jump then finds what it needs, and it is known whether the time goes back. On
+        a web server that would be all of the recording, whoever looks at how little.
         """
+        if self.recording is None or self.recording.is_remote:
+            return False
         joints = self.joint_index(self.topics.joint_states)
         found = [one.look_on() for one in (self._index, joints) if one is not None]
         return any(found)

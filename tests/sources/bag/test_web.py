@@ -7,11 +7,16 @@ from pathlib import Path
 
 import large_recording
 import pytest
+from lower_limit import lower
 from web_server import WebServer, web_server
 
 from sambot_viz.cli import main
 from sambot_viz.errors import Problem, SourceError
+from sambot_viz.messages import MessageTypes
 from sambot_viz.sources.bag import open_recording
+from sambot_viz.sources.bag.web_bytes import PIECE
+from sambot_viz.sources.playback import RecordingPlayback
+from sambot_viz.topics.source_robot import SourceRobot
 
 
 @pytest.fixture
@@ -65,6 +70,34 @@ def test_what_is_not_looked_at_is_not_asked_for(tmp_path: Path) -> None:
         recording.close()
 
 
+def test_what_has_come_is_not_asked_for_again(tmp_path: Path) -> None:
+    path = tmp_path / "large.mcap"
+    large_recording.write(path, 40_000_000)
+    with web_server(path.read_bytes()) as server:
+        with open_recording(server.address()) as recording:
+            payloads = [bytes(one.payload) for one in recording.messages()]
+            assert server.sent <= path.stat().st_size
+            # More than the blocks that are kept in memory.
+            asked = len(server.asked)
+            assert [bytes(one.payload) for one in recording.messages()] == payloads
+            assert len(server.asked) == asked
+        with open_recording(path) as here:
+            assert [bytes(one.payload) for one in here.messages()] == payloads
+
+
+def test_more_than_may_be_kept_is_asked_for_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lower(monkeypatch, "WEB_PIECES", 5 * PIECE)
+    path = tmp_path / "large.mcap"
+    large_recording.write(path, 20_000_000)
+    with web_server(path.read_bytes()) as server, open_recording(path) as here:
+        with open_recording(server.address()) as there:
+            for one, other in zip(here.messages(), there.messages(), strict=True):
+                assert one.payload == other.payload
+            assert server.sent > path.stat().st_size
+
+
 def test_a_server_without_ranges_is_named_with_the_way_out(server: WebServer) -> None:
     server.has_ranges = False
     problem = refusal(server.address())
@@ -94,6 +127,19 @@ def test_a_file_that_is_not_there(server: WebServer, name: str, message: str) ->
     problem = refusal(server.address(name))
     assert message in problem.message
     assert problem.hint == f"see what curl -I '{server.address(name)}' says"
+
+
+def test_nothing_is_read_ahead_of_what_is_shown(tmp_path: Path) -> None:
+    path = tmp_path / "large.mcap"
+    large_recording.write(path, 40_000_000)
+    with web_server(path.read_bytes()) as server:
+        recording = open_recording(server.address())
+        assert recording.is_remote
+        robot = SourceRobot(RecordingPlayback(recording, "web"), MessageTypes())
+        sent = server.sent
+        assert not robot.look_on()
+        assert server.sent == sent
+        robot.close()
 
 
 def test_a_server_that_is_not_there(server: WebServer) -> None:

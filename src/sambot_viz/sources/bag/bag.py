@@ -27,6 +27,11 @@ class Bag(Protocol):
         ...
 
     @property
+    def is_remote(self) -> bool:
+        """Whether some of it comes over a network, so that nothing is read ahead."""
+        ...
+
+    @property
     def topics(self) -> Mapping[str, SourceTopic]:
         """The topics by name, in the order of the file."""
         ...

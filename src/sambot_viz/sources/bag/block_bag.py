@@ -277,6 +277,11 @@ class BlockBag(ABC):
         return self._file.size
 
     @property
+    def is_remote(self) -> bool:
+        """Whether the file is read over a network."""
+        return self._file.is_remote
+
+    @property
     def topics(self) -> Mapping[str, SourceTopic]:
         """The topics by name, in the order of the file."""
         with self._lock:

@@ -47,6 +47,11 @@ class FileBytes:
         self._lock = threading.Lock()
 
     @property
+    def is_remote(self) -> bool:
+        """Whether it is read over a network."""
+        return False
+
+    @property
     def is_unpacked(self) -> bool:
         """Its bytes were decompressed."""
         return self._folder is not None

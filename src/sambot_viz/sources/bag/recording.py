@@ -51,6 +51,11 @@ class Recording:
         return sum(bag.size for bag in self._bags)
 
     @property
+    def is_remote(self) -> bool:
+        """Whether some of it comes over a network."""
+        return any(bag.is_remote for bag in self._bags)
+
+    @property
     def topics(self) -> Mapping[str, SourceTopic]:
         """The topics by name, in the order of the files."""
         parts = [bag.topics for bag in self._bags]

@@ -51,6 +51,11 @@ class RenamedBag:
         return self._bag.size
 
     @property
+    def is_remote(self) -> bool:
+        """Whether some of it comes over a network."""
+        return self._bag.is_remote
+
+    @property
     def topics(self) -> Mapping[str, SourceTopic]:
         """The topics by their new names, without those that are hidden."""
         topics = self._bag.topics

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import re
+import tempfile
 import threading
-from collections import OrderedDict
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
+from sambot_viz import limits
 from sambot_viz.files import name_of_address
 from sambot_viz.sources.bag.file_bytes import FileBytes
 from sambot_viz.sources.bag.refusals import refused
@@ -17,9 +20,7 @@ if TYPE_CHECKING:
     from requests import Response, Session
 
 PIECE = 2**18
-"""Size of the pieces that small reads are fetched in [bytes]."""
-_KEPT = 32
-"""Number of cached pieces."""
+"""Size of the pieces that are asked for, each once [bytes]."""
 _TIMES = (10.0, 30.0)
 """A server gets so long to take a connection, and to go on answering [s]."""
 _RANGE = re.compile(r"bytes (\d+)-(\d+)/(\d+)")
@@ -44,7 +45,8 @@ class WebError(OSError):
 class WebBytes(FileBytes):
     """A file on a web server, read as `FileBytes` is.
 
-    Only the requested parts are fetched, over one connection that stays open.
+    Only the requested parts are fetched, over one connection that stays open, and kept
+    in a temporary file.
 
     Args:
         address: the address of the file; redirections are followed.
@@ -65,16 +67,22 @@ class WebBytes(FileBytes):
         self.path = Path(name_of_address(address))
         self._session: Session = requests.Session()
         self._lock = threading.Lock()
-        self._pieces: OrderedDict[int, bytes] = OrderedDict()
+        # The file as far as it has come: displays read the same seconds one by one.
+        self._kept = tempfile.TemporaryFile(prefix="sambot-viz-")
+        self._known = set[int]()
         self._is_closed = False
         self._version: dict[str, str] = {}
         # The size comes with it.
         try:
-            first = self._ask(0, PIECE - 1)
+            self._keep((0,), self._ask(0, PIECE - 1))
         except BaseException:
-            self._session.close()
+            self.close()
             raise
-        self._pieces[0] = first
+
+    @property
+    def is_remote(self) -> bool:
+        """It is: each read costs bytes, and time of a connection."""
+        return True
 
     @property
     def is_unpacked(self) -> bool:
@@ -97,32 +105,42 @@ class WebBytes(FileBytes):
         )
 
     def _read(self, at: int, count: int) -> bytes:
-        """Ask for it, or take it from the pieces that are kept."""
+        """Return bytes from the pieces on the disk; ask for those that are missing."""
         if self._is_closed:
             raise ValueError("the file was closed")
-        if count > PIECE:
-            return self._ask(at, at + count - 1)
         first, last = at // PIECE, (at + count - 1) // PIECE
-        data = b"".join(self._piece(n) for n in range(first, last + 1))
-        begin = at - first * PIECE
-        return data[begin : begin + count]
+        if (len(self._known) + last - first) * PIECE >= limits.WEB_PIECES.value:
+            self._forget()
+        try:
+            for run in _runs(n for n in range(first, last + 1) if n not in self._known):
+                end = min((run[-1] + 1) * PIECE, self.size) - 1
+                self._keep(run, self._ask(run[0] * PIECE, end))
+            self._kept.seek(at)
+            return self._kept.read(count)
+        except WebError:
+            raise
+        except OSError:
+            # The disk is full: it goes without.
+            self._forget()
+            return self._ask(at, at + count - 1)
+
+    def _keep(self, run: Sequence[int], data: bytes) -> None:
+        self._kept.seek(run[0] * PIECE)
+        self._kept.write(data)
+        self._known.update(run)
+
+    def _forget(self) -> None:
+        self._known.clear()
+        with suppress(OSError):
+            self._kept.truncate(0)
 
     def close(self) -> None:
         """End the connection; may be called again."""
         with self._lock:
             self._is_closed = True
-            self._pieces.clear()
+            self._known.clear()
+            self._kept.close()
             self._session.close()
-
-    def _piece(self, number: int) -> bytes:
-        if number in self._pieces:
-            self._pieces.move_to_end(number)
-            return self._pieces[number]
-        begin = number * PIECE
-        self._pieces[number] = self._ask(begin, min(begin + PIECE, self.size) - 1)
-        if len(self._pieces) > _KEPT:
-            self._pieces.popitem(last=False)
-        return self._pieces[number]
 
     def _ask(self, first: int, last: int) -> bytes:
         """Return the bytes from one place to another, both included.
@@ -206,6 +224,18 @@ class WebBytes(FileBytes):
             self._version = {"If-Match": tag}
         elif since:
             self._version = {"If-Unmodified-Since": since}
+
+
+def _runs(numbers: Iterable[int]) -> Iterator[list[int]]:
+    """Yield ascending numbers as runs without a gap."""
+    run: list[int] = []
+    for number in numbers:
+        if run and number != run[-1] + 1:
+            yield run
+            run = []
+        run.append(number)
+    if run:
+        yield run
 
 
 def request_failure(error: Exception) -> str:
