@@ -60,6 +60,10 @@ class FileChange:
         """The change back."""
         return replace(self, before=self.after, after=self.before)
 
+    def brings_back(self, earlier: FileChange) -> bool:
+        """Return whether this makes a file again what it was before another change."""
+        return (self.file, self.after) == (earlier.file, earlier.before)
+
     def diff(self) -> list[str]:
         """Return the change as the lines of a unified diff, without line ends."""
         old, new = (

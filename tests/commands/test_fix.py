@@ -5,8 +5,10 @@ from __future__ import annotations
 import io
 import re
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import pytest
@@ -274,9 +276,38 @@ def test_an_edit_that_reveals_another_finding_is_followed(tmp_path: Path) -> Non
     assert fixed(tmp_path, "a", {"a": "b", "b": "c", "c": "d"}) == "d"
 
 
-def test_edits_that_undo_each_other_end(tmp_path: Path) -> None:
-    assert fixed(tmp_path, "a", {"a": "b", "b": "a"}) == "a"
-    assert len(fixed(tmp_path, "a", {"a": "aa"})) == 2
+@pytest.mark.parametrize("rules", [["ab", "ba"], ["ab", "bc", "ca"]])
+def test_edits_that_undo_each_other_end_and_fix_nothing(
+    rules: list[str], tmp_path: Path, capsys: Capture
+) -> None:
+    assert fixed(tmp_path, "a", {r[0]: r[1] for r in rules}) == "a"
+    out = capsys.readouterr().out
+    assert f"{tmp_path / 'words'}: as it was before: edits undo each other" in out
+    assert "fixed in" not in out
+
+
+def test_an_edit_after_which_the_finding_stays_is_undone(
+    tmp_path: Path, capsys: Capture
+) -> None:
+    assert fixed(tmp_path, "a", {"a": "aa"}) == "a"
+    out = capsys.readouterr().out
+    assert "words:1:1: not applied: the finding stays" in out
+    assert "fixed in" not in out
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_no_rules_make_more_findings_or_claim_fixes_that_are_none(
+    seed: int, tmp_path: Path, capsys: Capture
+) -> None:
+    random = Random(seed)
+    words = "abcd"
+    rules = {word: random.choice(["", *words, "a b", "c d"]) for word in words}
+    text = " ".join(random.choices(words, k=4))
+    before = Counter(text.split())
+    after = Counter(fixed(tmp_path, text, rules).split())
+    out = capsys.readouterr().out
+    assert len(after) <= len(before)
+    assert ("fixed in" not in out) or before != after
 
 
 def test_an_edit_that_makes_more_errors_is_undone_and_the_others_stay(

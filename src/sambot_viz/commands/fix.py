@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from sambot_viz.errors import Edit, Problem
 from sambot_viz.fixes import (
@@ -37,6 +38,16 @@ def folders_of(model: Path, folder: Path | None) -> list[Path]:
     return [package] if folder is None else [folder, package]
 
 
+class _Made(NamedTuple):
+    """Edits that were written together: of how many findings, and in which files."""
+
+    findings: int
+    changes: tuple[FileChange, ...]
+
+    def is_only_of(self, file: str) -> bool:
+        return all(change.file == file for change in self.changes)
+
+
 class Fixing:
     """Applies the edits of findings in rounds, with a question for each.
 
@@ -54,8 +65,7 @@ class Fixing:
         self._asks = asks
         self._quits = False
         self._settled: set[object] = set()
-        self._fixed = 0
-        self._files: set[str] = set()
+        self._made: list[_Made] = []
 
     def run(self) -> list[Problem]:
         """Apply the wanted edits, and return the problems that are left."""
@@ -68,14 +78,13 @@ class Fixing:
                 break
         if not self._settled:
             write_out("no finding has an edit")
-        elif self._fixed:
-            write_out(f"{_counted(self._fixed, 'finding')} fixed in {self._places()}")
+        elif fixed := sum(each.findings for each in self._made):
+            write_out(f"{_counted(fixed, 'finding')} fixed in {self._places()}")
         return problems
 
     def _places(self) -> str:
-        if len(self._files) == 1:
-            return next(iter(self._files))
-        return _counted(len(self._files), "file")
+        files = {change.file for each in self._made for change in each.changes}
+        return next(iter(files)) if len(files) == 1 else _counted(len(files), "file")
 
     def _choose(self, problems: Sequence[Problem]) -> list[ProblemGroup]:
         """Show the edits that can be made together, and ask which are wanted."""
@@ -130,23 +139,27 @@ class Fixing:
             after = self._check()
             return after if alone else self._apply_each(groups, after)
         after = self._check()
-        new = _new_errors(before, after)
-        # An error in place of another one may be seen only without that, and one of
-        # another file that is mended next only once this file is found.
-        written = {change.file for change in made}
-        is_hidden = all(
-            p.edits and written.isdisjoint(edit.file for edit in p.edits) for p in new
-        )
-        if not new or (alone and (_errors(after) <= _errors(before) or is_hidden)):
-            self._fixed += sum(len(group.problems) for group in groups)
-            self._files |= written
+        worse = _worse(groups, made, before, after)
+        if not worse:
+            findings = sum(len(group.problems) for group in groups)
+            self._note(_Made(findings, tuple(made)))
             return after
         undo_changes(made)
         if not alone:
             return self._apply_each(groups, before)
-        place = groups[0].first.place
-        write_out(f"{place}: not applied: it leads to another error: {new[0]}")
+        write_out(f"{groups[0].first.place}: not applied: {worse}")
         return before
+
+    def _note(self, new: _Made) -> None:
+        """Remember what was written, without what it takes back."""
+        for change in new.changes:
+            for at, earlier in enumerate(self._made):
+                if any(change.brings_back(other) for other in earlier.changes):
+                    write_out(f"{change.file}: as it was before: edits undo each other")
+                    rest = self._made[at:]
+                    self._made[at:] = [e for e in rest if not e.is_only_of(change.file)]
+                    return
+        self._made.append(new)
 
     def _apply_each(
         self, groups: Sequence[ProblemGroup], problems: list[Problem]
@@ -186,12 +199,47 @@ def _errors(problems: Sequence[Problem]) -> int:
     return sum(problem.severity == "error" for problem in problems)
 
 
-def _new_errors(before: Sequence[Problem], after: Sequence[Problem]) -> list[Problem]:
-    """Return the errors whose codes occur more often than before."""
-    old = Counter(p.code for p in before if p.severity == "error")
-    new = Counter(p.code for p in after if p.severity == "error")
+def _worse(
+    groups: Sequence[ProblemGroup],
+    made: Sequence[FileChange],
+    before: Sequence[Problem],
+    after: Sequence[Problem],
+) -> str:
+    """Return why edits make nothing better; empty when they do."""
+    new = _more(before, after, "error")
+    # An error in place of another one may be seen only without that, and one of
+    # another file that is mended next only once this file is found.
+    written = {change.file for change in made}
+    is_hidden = all(
+        p.edits and written.isdisjoint(edit.file for edit in p.edits) for p in new
+    )
+    is_next = len(groups) == 1 and (_errors(after) <= _errors(before) or is_hidden)
+    if new and not is_next:
+        return f"it leads to another error: {new[0]}"
+    # Behind an error no warning of the model was seen, and behind a warning no other.
+    lines = {(p.file, p.line) for group in groups for p in group.problems}
+    new = [] if _errors(before) else _more(before, after, "warning")
+    if new := [p for p in new if (p.file, p.line) not in lines]:
+        return f"it leads to another warning: {new[0]}"
+    old, left = Counter(map(_said, before)), Counter(map(_said, after))
+    if any(all(left[s] >= old[s] for s in map(_said, g.problems)) for g in groups):
+        return "the finding stays"
+    return ""
+
+
+def _said(problem: Problem) -> tuple[str, str | None, str]:
+    """Return what a finding says, wherever other edits move it in its file."""
+    return problem.code, problem.file, problem.message
+
+
+def _more(
+    before: Sequence[Problem], after: Sequence[Problem], severity: str
+) -> list[Problem]:
+    """Return the findings whose codes occur more often than before."""
+    old = Counter(p.code for p in before if p.severity == severity)
+    new = Counter(p.code for p in after if p.severity == severity)
     more = new - old
-    return [p for p in after if p.severity == "error" and p.code in more]
+    return [p for p in after if p.severity == severity and p.code in more]
 
 
 def _diff(change: FileChange) -> Iterator[Line]:
