@@ -123,7 +123,9 @@ NO_LIMITS = {
         meshes/named_files.py _MAX_UP
         robot/packages/package_index.py _MAX_UP
         checks/consequences.py _MOST
+        checks/proven.py _MOST
         checks/rewritten.py _DEEPEST
+        robot/xacro/at_calls.py _DEEPEST
         robot/xacro/diagnose/failing_values.py _DEEPEST
         robot/xacro/diagnose/text_for_number.py _DEEPEST
         sources/recorder.py _MOST_NAMES

@@ -19,10 +19,12 @@ _TEXTS: ContextVar[Mapping[str, str] | None] = ContextVar("unsaved", default=Non
 def unsaved(texts: Mapping[str, str]) -> Generator[None]:
     """Read these texts in place of their files, in this thread until the block ends.
 
+    Texts of a block around it stay, unless they are of the same files.
+
     Args:
         texts: whole path of a file → its text.
     """
-    token = _TEXTS.set(texts or None)
+    token = _TEXTS.set({**(_TEXTS.get() or {}), **texts} or None)
     try:
         yield
     finally:

@@ -13,6 +13,7 @@ from sambot_viz.checks.model_rules import (
     find_problems,
     in_order,
     subject_of,
+    with_proven_edits,
 )
 from sambot_viz.errors import Problem, UsageError
 from sambot_viz.robot.model import Robot
@@ -78,6 +79,7 @@ def check_robot(
     """
     subject = subject_of(robot, path, mesh)
     found = [*robot.problems, *find_problems(subject, RULES)]
+    found = with_proven_edits(subject, found)
     return in_order([*found, *check_around(robot, path)] if around else found)
 
 

@@ -18,7 +18,9 @@ from sambot_viz.checks.model_rules import (
     find_problems,
     in_order,
     subject_of,
+    with_proven_edits,
 )
+from sambot_viz.checks.proven import lasting
 from sambot_viz.checks.targets import CheckedModel, Targets, find_targets
 from sambot_viz.errors import ConfigError, Problem, RobotError
 from sambot_viz.files import each_file_once, is_below
@@ -77,10 +79,11 @@ def check_all(
         try:
             robot = load_launched(load, target, variants[0], given)
         except RobotError as error:
-            problems += with_missing_names(error.problems, target)
+            problems += with_missing_names(lasting(error.problems, load), target)
             continue
         subject = subject_of(robot, target.model, None, target.packages)
         of_model = [*_of_files(subject), *find_problems(subject, RULES)]
+        of_model = with_proven_edits(subject, of_model)
         problems += of_model
         problems += wrong_variants(load, target, variants[1:], given, of_model)
         around = find_problems(subject, AROUND)

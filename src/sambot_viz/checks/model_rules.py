@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -31,6 +32,7 @@ from sambot_viz.checks.physics import (
     zero_mass,
 )
 from sambot_viz.checks.proportion import lengths_out_of_proportion
+from sambot_viz.checks.proven import proven
 from sambot_viz.checks.rule import Rule, Subject
 from sambot_viz.checks.sensor_words import gazebo_words, sensor_words
 from sambot_viz.checks.slips import (
@@ -45,6 +47,7 @@ from sambot_viz.checks.unused_macros import unused_macros
 from sambot_viz.checks.wheel_twins import unlike_twins
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.xacro.at_calls import at_calls
 
 if TYPE_CHECKING:
     from sambot_viz.checks.around.workspace import Package
@@ -119,17 +122,34 @@ def subject_of(
 
 def find_problems(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
     """Run rules, and drop consequences of other findings."""
-
-    def look(other: Subject) -> list[Problem]:
-        return [problem for rule in rules for problem in rule(other)]
-
+    look = partial(_look, rules)
     found = look(subject)
     if not found:
         return []
     causes = [p for rule in _CAUSES if rule not in rules for p in rule(subject)]
+    causes = with_edits(causes)
     own = set(found)
     kept = without_consequences(subject, [*causes, *found], look)
     return [problem for problem in kept if problem in own]
+
+
+def _look(rules: Sequence[Rule], subject: Subject) -> list[Problem]:
+    every = with_edits(problem for rule in rules for problem in rule(subject))
+    return at_calls(every, subject.files)
+
+
+def with_proven_edits(subject: Subject, found: Sequence[Problem]) -> list[Problem]:
+    """Return findings of rules about the model and of its text, with their good edits.
+
+    See `proven`.
+    """
+    if not any(problem.edits for problem in found):
+        return list(found)
+
+    def look(other: Subject) -> list[Problem]:
+        return [*other.robot.problems, *_look(RULES, other)]
+
+    return proven(subject, found, look)
 
 
 def in_order(problems: Sequence[Problem]) -> list[Problem]:

@@ -6,7 +6,7 @@ files, and the text it came from.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -32,6 +32,7 @@ class Subject:
             None for an unread one.
         packages: the packages of the robot, the model's first.
         edited: edits → the subject with the edited robot, as a cache.
+        texts: whole path of an edited file → its text.
     """
 
     robot: Robot
@@ -41,6 +42,7 @@ class Subject:
     edited: dict[tuple[Edit, ...], Subject | None] = field(
         default_factory=dict["tuple[Edit, ...]", "Subject | None"], compare=False
     )
+    texts: Mapping[str, str] = field(default_factory=dict[str, str], compare=False)
 
     def shapes(self) -> Iterator[tuple[Link, Shape]]:
         """Yield the visuals and collisions of all links, each with its link."""

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from sambot_viz.checks.proven import more, reveals, stays
 from sambot_viz.errors import Edit, Problem
 from sambot_viz.fixes import (
     EditRefused,
@@ -206,7 +206,7 @@ def _worse(
     after: Sequence[Problem],
 ) -> str:
     """Return why edits make nothing better; empty when they do."""
-    new = _more(before, after, "error")
+    new = more(before, after, "error")
     # An error in place of another one may be seen only without that, and one of
     # another file that is mended next only once this file is found.
     written = {change.file for change in made}
@@ -218,28 +218,12 @@ def _worse(
         return f"it leads to another error: {new[0]}"
     # Behind an error no warning of the model was seen, and behind a warning no other.
     lines = {(p.file, p.line) for group in groups for p in group.problems}
-    new = [] if _errors(before) else _more(before, after, "warning")
+    is_seen = not _errors(before) and not any(reveals(g.first) for g in groups)
+    new = more(before, after, "warning") if is_seen else []
     if new := [p for p in new if (p.file, p.line) not in lines]:
         return f"it leads to another warning: {new[0]}"
-    old, left = Counter(map(_said, before)), Counter(map(_said, after))
-    if any(all(left[s] >= old[s] for s in map(_said, g.problems)) for g in groups):
-        return "the finding stays"
-    return ""
-
-
-def _said(problem: Problem) -> tuple[str, str | None, str]:
-    """Return what a finding says, wherever other edits move it in its file."""
-    return problem.code, problem.file, problem.message
-
-
-def _more(
-    before: Sequence[Problem], after: Sequence[Problem], severity: str
-) -> list[Problem]:
-    """Return the findings whose codes occur more often than before."""
-    old = Counter(p.code for p in before if p.severity == severity)
-    new = Counter(p.code for p in after if p.severity == severity)
-    more = new - old
-    return [p for p in after if p.severity == severity and p.code in more]
+    is_there = any(stays(group.problems, after) for group in groups)
+    return "the finding stays" if is_there else ""
 
 
 def _diff(change: FileChange) -> Iterator[Line]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple
@@ -70,14 +70,31 @@ def load_model(
     edited: Mapping[str, str],
 ) -> LoadedModel:
     """Load a model; arguments and errors are those of `load_robot`."""
+    label = "" if isinstance(model, OpenedModel) else str(model)
     try:
         if isinstance(model, OpenedModel):
             opened = edited_model(model, edited)
         else:
             opened = open_model(model, edited)
-        return _Loader(opened, xacro_args, package_path, trusted, edited).load()
+        label = opened.source.label
+        loaded = _Loader(opened, xacro_args, package_path, trusted, edited).load()
+        own = _at_causes(loaded.problems, label, loaded.files)
+        return loaded._replace(problems=tuple(own))
     except RobotError as error:
-        raise RobotError(with_edits(error.problems), error.files) from error.__cause__
+        found = _at_causes(error.problems, label, error.files)
+        raise RobotError(found, error.files) from error.__cause__
+
+
+def _at_causes(
+    problems: Sequence[Problem], label: str, files: Iterable[Path]
+) -> list[Problem]:
+    """Return problems with their edits, those of macros where their cause is."""
+    found = with_edits(problems)
+    if all(p.file is None or p.column is None for p in found):
+        return found
+    from sambot_viz.robot.xacro.at_calls import at_calls
+
+    return at_calls(found, (label, *map(str, files)))
 
 
 def expand(
