@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from sambot_viz.edits import rename_attribute
-from sambot_viz.errors import Problem, did_you_mean, nearest
+from sambot_viz.edits import Extent, rename_attribute, source_of
+from sambot_viz.errors import Edit, Fix, Problem, did_you_mean, nearest
 from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xacro.diagnose.failed_expansion import (
     FailedExpansion,
@@ -13,6 +13,7 @@ from sambot_viz.robot.xacro.diagnose.failed_expansion import (
     parameters,
 )
 from sambot_viz.robot.xacro.diagnose.source_files import NamedElement, SourceSet
+from sambot_viz.robot.xacro.macro_texts import macro_around
 from sambot_viz.robot.xml.diagnose.lexer import Token
 
 _CODE = "xacro-parameter-unknown"
@@ -141,6 +142,39 @@ def _not_declared(
         f"the macro {macro.name} {lacks}, but the call on "
         f"{line_in(here.at, macro.place)} gives {_listed(given)}",
         f'{verb} params="{" ".join(params)}"',
+    )
+
+
+def renamed_parameter(failed: FailedExpansion, name: str) -> Fix | None:
+    """Return the fix for a name that only its macro's parameters have lost.
+
+    One parameter is used nowhere in the macro, whose body uses a name that nothing
+    defines.
+    """
+    source = source_of(failed.at.file)
+    offset = 0 if source is None else source.offset(failed.at)
+    macro = source and macro_around(failed.at.file, source, offset)
+    if not macro:
+        return None
+    whole, body = rf"(?<![\w.'\"]){re.escape(name)}(?![\w'\"])", macro.body
+    uses = list(re.finditer(r"\$\{[^}]*\}", body.text))
+    used = " ".join(use[0] for use in uses)
+    used += " ".join(re.findall(r"<xacro:insert_block\s[^>]*", body.text))
+    known = [p for p in macro.defaults if not re.search(rf"(?<!\w){p}(?!\w)", used)]
+    if len(known) != 1:
+        return None
+    edits: list[Edit] = []
+    for use in uses:
+        for one in re.finditer(whole, use[0]):
+            start = body.extent.start + use.start() + one.start()
+            edits.append(
+                body._replace(extent=Extent(start, start + len(name))).edit(known[0])
+            )
+    places = "" if len(edits) == 1 else f" at all {len(edits)} places in the macro"
+    return Fix(
+        f"write {known[0]} for {name}{places}: this parameter of {macro.name} is used "
+        "nowhere",
+        tuple(edits),
     )
 
 

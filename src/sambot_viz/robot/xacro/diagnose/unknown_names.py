@@ -20,6 +20,7 @@ from sambot_viz.robot.xacro.diagnose.failed_expansion import (
     line_in,
     parameters,
 )
+from sambot_viz.robot.xacro.diagnose.macro_parameters import renamed_parameter
 from sambot_viz.robot.xacro.diagnose.source_files import NamedElement
 
 _BUILT_IN = (
@@ -143,6 +144,8 @@ def _near_name(failed: FailedExpansion, name: str) -> str | Fix:
         return instead(near, f"did you mean {near} (defined on {where})?")
     if near:
         return instead(near, f"did you mean {near}?")
+    if (renamed := renamed_parameter(failed, name)) is not None:
+        return renamed
     for macro in failed.named("macro"):
         if name in parameters(macro.params) and not failed.failure.macros:
             return (
