@@ -146,18 +146,32 @@ def _is_like(one: Shape, other: Shape) -> bool:
 
 
 def wheels_in_one_place(subject: Subject) -> Iterator[Problem]:
-    """Report a wheel in the place of another one, as when both are on the left."""
+    """Report a wheel in the place of another one, as when both are on the left.
+
+    Other parts are too, where their names mean two sides, and they move alike.
+    """
     robot = subject.robot
     seen: dict[object, Joint] = {}
     for joint in robot.joints.values():
         link = robot.links[joint.child]
         shapes = link.collisions or link.visuals
-        if axle_of(joint) is None or not shapes:
+        is_wheel = axle_of(joint) is not None
+        if not shapes:
             continue
         places = tuple((shape.geometry, shape.origin) for shape in shapes)
-        other = seen.setdefault((joint.parent, joint.origin, places), joint)
-        if other is not joint:
+        ends = joint.limit.ends if joint.limit is not None else None
+        moves = () if is_wheel else (joint.type, joint.axis, ends)
+        key = (joint.parent, joint.origin, places, is_wheel, moves)
+        other = seen.setdefault(key, joint)
+        if other is not joint and (is_wheel or _are_sides_of_one(other, joint)):
             yield _in_one_place(other, joint, robot)
+
+
+def _are_sides_of_one(one: Joint, other: Joint) -> bool:
+    """Return whether parts are named for two sides, and none moves against another."""
+    names = [f"{joint.name} {joint.child}".lower() for joint in (one, other)]
+    turned = [j for j in (one, other) if j.mimic is not None and j.mimic.multiplier < 0]
+    return not turned and (_are_sides(*names) or _are_sides(*reversed(names)))
 
 
 def _in_one_place(one: Joint, other: Joint, robot: Robot) -> Problem:
@@ -166,10 +180,11 @@ def _in_one_place(one: Joint, other: Joint, robot: Robot) -> Problem:
     wrong = _on_wrong_side(one, other)
     both = [f"{joint.name} {joint.child}".lower() for joint in (one, other)]
     element = "<pose>" if robot.language == "sdf" else "<origin>"
+    parts = "links" if axle_of(one) is None else "wheels"
     return guess(
         other.place,
         "wheels-in-one-place",
-        f"the wheels {one.child} and {other.child} are in the same place of "
+        f"the {parts} {one.child} and {other.child} are in the same place of "
         f"{one.parent}, at {_numbers(one.origin.xyz)}: one hides the other",
         Fix(
             f"give one of {one.name} and {other.name} the other side: {written} in its "

@@ -34,7 +34,11 @@ from sambot_viz.checks.physics import (
 from sambot_viz.checks.proportion import lengths_out_of_proportion
 from sambot_viz.checks.proven import proven
 from sambot_viz.checks.rule import Rule, Subject
-from sambot_viz.checks.sensor_words import gazebo_words, sensor_words
+from sambot_viz.checks.sensor_words import (
+    beside_sensors,
+    gazebo_words,
+    sensor_words,
+)
 from sambot_viz.checks.slips import (
     invisible_materials,
     limits_in_degrees,
@@ -86,6 +90,7 @@ RULES: tuple[Rule, ...] = (
     invisible_materials,
     sensor_words,
     gazebo_words,
+    beside_sensors,
 )
 """The rules about the model itself, in their order."""
 

@@ -33,6 +33,10 @@ _BESIDE = frozenset({"gz_frame_id", "ignition_frame_id"})
 """Elements that Gazebo reads in a sensor, and that the table of SDF lacks."""
 
 
+_OF_SENSOR = _BESIDE | {"always_on", "update_rate", "visualize"}
+"""Elements of a sensor that no link or model has."""
+
+
 @cache
 def _in_gazebo() -> ElementType:
     """Return the possible elements in a <gazebo> of URDF."""
@@ -67,6 +71,28 @@ def sensor_words(subject: Subject) -> Iterator[Problem]:
                     for child in element.children
                     if child.tag in kind.children
                 ]
+
+
+def beside_sensors(subject: Subject) -> Iterator[Problem]:
+    """Report what Gazebo reads only in a sensor, and that stands behind it."""
+    for part in subject.robot.gazebo if subject.robot.language == "urdf" else ():
+        for child in part.children if part.tag == "gazebo" else ():
+            if child.tag not in _OF_SENSOR:
+                continue
+            sensors = [s for s in part.find_all("sensor") if s.find(child.tag) is None]
+            if len(sensors) == 1 and sensors[0].place.file == child.place.file:
+                (sensor,) = sensors
+                name = sensor.get("name")
+                named = "" if name is None else f' name="{name}"'
+                yield Problem.at(
+                    child.place,
+                    "warning",
+                    "element-misplaced",
+                    f"<{child.tag}> stands outside of {tag_text(sensor)} (line "
+                    f"{sensor.place.line}), and is read only in it: Gazebo ignores it",
+                    f"move <{child.tag}> into <sensor{named}> (line "
+                    f"{sensor.place.line})",
+                )
 
 
 def _colours(part: Element) -> Iterator[Problem]:

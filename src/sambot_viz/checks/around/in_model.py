@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 
 from sambot_viz.checks.around.control.words import words_of_control
 from sambot_viz.checks.around.gazebo.classic_plugins import (
+    outside_of_sensors,
     unknown_libraries,
     words_of_plugins,
 )
@@ -29,12 +30,17 @@ from sambot_viz.checks.around.gazebo.systems import (
     unknown_systems,
 )
 from sambot_viz.checks.around.gazebo.wheels import wheel_sizes
-from sambot_viz.checks.around.joint_names import unknown_joints, unknown_references
+from sambot_viz.checks.around.joint_names import (
+    joints_twice,
+    unknown_joints,
+    unknown_references,
+)
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
 
 IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
     unknown_joints,
+    joints_twice,
     unknown_references,
     wheel_sizes,
     wrong_sides,
@@ -50,6 +56,7 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
     misspelt_frames,
     frames_of_sensors,
     unknown_libraries,
+    outside_of_sensors,
     words_of_plugins,
     words_of_control,
 )

@@ -49,6 +49,34 @@ def unknown_joints(robot: Robot) -> Iterator[Problem]:
     return _unknown_joints(robot, _named_joints(robot))
 
 
+def joints_twice(robot: Robot) -> Iterator[Problem]:
+    """Report a joint that a plugin names twice, and the one that it leaves out."""
+    for plugin in plugins(robot.gazebo):
+        for tag in _JOINTS if plugin.generation is not None else ():
+            named = plugin.all(tag)
+            for at, fact in enumerate(named):
+                first = next(f for f in named if f.value == fact.value)
+                joint = robot.joints.get(fact.value)
+                if first is named[at] or joint is None:
+                    continue
+                said = {other.value for t in _JOINTS for other in plugin.all(t)}
+                free = [
+                    each.name
+                    for each in robot.joints.values()
+                    if each.type == joint.type and each.mimic is None
+                    if each.name not in said
+                ]
+                if len(free) == 1:
+                    yield Problem.at(
+                        fact.place,
+                        "warning",
+                        "gazebo-joint",
+                        f"the plugin {plugin.filename} has {fact.value} twice (see "
+                        f"{where(first.place, fact.place)}), and {free[0]} never",
+                        write(fact.place, fact.value, free[0]),
+                    )
+
+
 def joints_of_controllers(around: Surroundings) -> Iterator[Problem]:
     """Report joints in the parameters of controllers that the model does not have."""
     for parameter in around.parameters if around.robot.gazebo else ():

@@ -66,6 +66,7 @@ def words_of_control(robot: Robot) -> Iterator[Problem]:
         yield from _hardware(part)
         yield from _twice(part, robot)
         yield from _unlike_others(part)
+        yield from _without_state(part)
 
 
 def _attribute(
@@ -160,6 +161,33 @@ def _unlike_others(part: Element) -> Iterator[Problem]:
                     f"{name}, which all other joints of this <ros2_control> have",
                     Fix(f"add {added} to the joint", put_into(joint.place, added)),
                 )
+
+
+def _without_state(part: Element) -> Iterator[Problem]:
+    """Report a joint without any state, where all others have one."""
+    states = {joint: _of_kind(joint, "state") for joint in part.find_all("joint")}
+    for joint, own in states.items():
+        commands = _of_kind(joint, "command")
+        others = [other for other in states if other is not joint]
+        alike = [states[o] for o in others if _of_kind(o, "command") == commands]
+        # Where all others have one more, that is reported already.
+        several = len(alike) > 1 and len(alike[0]) == 1
+        is_odd = bool(alike) and all(states[other] for other in others)
+        if own or not commands or not is_odd or several:
+            continue
+        added = "".join(f'<state_interface name="{name}"/>' for name in alike[0])
+        yield Problem.at(
+            joint.place,
+            "warning",
+            _CODE,
+            f"the joint {joint.get('name')} has no state interface, and all others "
+            "have one: no joint state of it is published",
+            Fix(f"add {added} to the joint", put_into(joint.place, added)),
+        )
+
+
+def _of_kind(joint: Element, kind: str) -> list[str]:
+    return [n for tag, n in _interfaces(joint) if tag == f"{kind}_interface"]
 
 
 def _interfaces(joint: Element) -> list[tuple[str, str]]:

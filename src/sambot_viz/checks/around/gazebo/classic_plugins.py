@@ -62,6 +62,30 @@ def _same_or_slip(written: str, name: str) -> bool:
     return is_one_slip(one, other) or plain[0] == plain[1]
 
 
+def outside_of_sensors(robot: Robot) -> Iterator[Problem]:
+    """Report a plugin of a sensor that stands beside it, or in no sensor at all."""
+    for part in robot.gazebo:
+        for element in part.find_all("plugin") if part.get("reference") else ():
+            kinds = _READS.get(element.get("filename") or "", ())
+            sensors = [s for s in part.find_all("sensor") if s.get("type") in kinds]
+            free = [sensor for sensor in sensors if sensor.find("plugin") is None]
+            if not kinds:
+                continue
+            hint = f"write it into the <sensor> of type {kinds[0]} that it belongs to"
+            if len(free) == 1 and free[0].place.file == element.place.file:
+                name = free[0].get("name")
+                named = "" if name is None else f' name="{name}"'
+                hint = f"move <plugin> into <sensor{named}> (line {free[0].place.line})"
+            yield Problem.at(
+                element.place,
+                "warning",
+                _CODE,
+                f"{element.get('filename')} is a plugin of a sensor, and stands in no "
+                "<sensor>: Gazebo Classic does not load it",
+                hint,
+            )
+
+
 def words_of_plugins(robot: Robot) -> Iterator[Problem]:
     """Report misspelt elements and messages of these plugins."""
     for plugin in plugins(robot.gazebo):

@@ -202,4 +202,7 @@ _PLACED = frozenset({"LaserScan", "PointCloudPacked"})
 
 
 def _names_frame(sensor: Element) -> bool:
-    return any("frame_id" in element.tag for element in sensor.iter())
+    """Return whether a sensor names its frame, be it at the wrong place beside it."""
+    around = sensor.parent
+    beside = around.children if around is not None and around.tag == "gazebo" else []
+    return any("frame_id" in element.tag for element in (*sensor.iter(), *beside))

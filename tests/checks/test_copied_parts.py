@@ -1,0 +1,123 @@
+"""What was copied, moved or left out in one of two parts that should be alike."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check
+from sambot_viz.edits import apply_edits
+from sambot_viz.errors import Problem
+
+HEAD = """<robot name="r"><link name="base_link"><visual><geometry>
+<box size="0.4 0.3 0.1"/></geometry></visual></link>
+"""
+PART = """<link name="{0}"><visual><geometry><box size="0.1 0.02 0.02"/></geometry>
+</visual></link>
+<joint name="{0}_joint" type="{1}"><parent link="base_link"/><child link="{0}"/>
+<origin xyz="0.2 {2} 0"/><axis xyz="{3}"/>
+<limit lower="0" upper="0.5" effort="1" velocity="1"/></joint>
+"""
+CAMERA = PART.format("camera", "fixed", "0", "0 0 1")
+SENSOR = """<gazebo reference="camera">
+<sensor name="eye" type="{}">
+{}</sensor>
+{}</gazebo>
+"""
+CLASSIC = '<plugin name="c" filename="libgazebo_ros_camera.so"/>\n'
+FRAME = "<gz_frame_id>camera</gz_frame_id>\n"
+STATES = """<gazebo><plugin name="s" filename="libgazebo_ros_joint_state_publisher.so">
+<joint_name>{}</joint_name>
+<joint_name>{}</joint_name>
+</plugin></gazebo>
+"""
+CONTROL = """<ros2_control name="all" type="system"><hardware>
+<plugin>mock_components/GenericSystem</plugin></hardware>
+<joint name="left_joint"><command_interface name="position"/>
+<state_interface name="position"/></joint>
+<joint name="right_joint"><command_interface name="position"/>
+{}</joint></ros2_control>
+"""
+STATE = '<state_interface name="position"/>'
+FULL = CONTROL.format("").replace('right_joint">', f'right_joint">{STATE}')
+
+
+def sides(y: str = "-0.1", axis: str = "0 0 1", kind: str = "revolute") -> str:
+    left = PART.format("left", kind, "0.1", "0 0 1")
+    return left + PART.format("right", kind, y, axis)
+
+
+def found(tmp_path: Path, text: str, code: str) -> tuple[list[Problem], Path]:
+    model = tmp_path / "r.urdf"
+    model.write_text(f"{HEAD}{text}</robot>\n")
+    return [p for p in check(model) if p.code == code], model
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right", "code"),
+    [
+        (
+            CAMERA + SENSOR.format("camera", "", CLASSIC),
+            CAMERA + SENSOR.format("camera", CLASSIC, ""),
+            "gazebo-plugin",
+        ),
+        (
+            CAMERA + SENSOR.format("rgbd_camera", "", FRAME),
+            CAMERA + SENSOR.format("rgbd_camera", FRAME, ""),
+            "element-misplaced",
+        ),
+        (
+            sides() + STATES.format("left_joint", "left_joint"),
+            sides() + STATES.format("left_joint", "right_joint"),
+            "gazebo-joint",
+        ),
+        (
+            sides() + CONTROL.format(""),
+            sides() + FULL,
+            "control-interface",
+        ),
+    ],
+    ids=["plugin of a sensor", "frame of a sensor", "joint twice", "no state"],
+)
+def test_it_is_moved_or_written_where_it_belongs(
+    wrong: str, right: str, code: str, tmp_path: Path
+) -> None:
+    problems, model = found(tmp_path, wrong, code)
+    (problem,) = problems
+    assert problem.severity == "warning"
+    better = apply_edits(problem.edits, model.read_text())
+    assert "".join(better.split()) == "".join(f"{HEAD}{right}</robot>".split())
+    assert not found(tmp_path, right, code)[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        (sides(), 0),
+        (sides(y="0.1"), 1),
+        (sides(y="0.1", kind="fixed"), 1),
+        (sides(y="0.1", axis="0 0 -1"), 0),
+        (sides(y="0.1").replace("right", "second"), 0),
+    ],
+    ids=["two sides", "one side", "fixed", "one against the other", "no sides"],
+)
+def test_parts_of_two_sides_are_not_in_one_place(
+    text: str, expected: int, tmp_path: Path
+) -> None:
+    problems, _ = found(tmp_path, text, "wheels-in-one-place")
+    assert len(problems) == expected
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        CAMERA + SENSOR.format("camera", CLASSIC, ""),
+        CAMERA + SENSOR.format("camera", "", "<turnGravityOff>true</turnGravityOff>"),
+        sides() + CAMERA + STATES.format("left_joint", "camera_joint"),
+        sides() + CONTROL.format("").replace(STATE, ""),
+    ],
+)
+def test_what_is_right_is_left_alone(text: str, tmp_path: Path) -> None:
+    codes = ("gazebo-plugin", "element-misplaced", "gazebo-joint", "control-interface")
+    assert not [p for code in codes for p in found(tmp_path, text, code)[0]]
