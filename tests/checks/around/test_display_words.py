@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,9 @@ from sambot_viz.checks import check
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.inputs import declarations
 from sambot_viz.rviz import Property
+from sambot_viz.rviz.properties.color import ColorProperty
+from sambot_viz.rviz.properties.numbers import BoolProperty, FloatProperty, IntProperty
+from sambot_viz.rviz.properties.texts import EnumProperty, PolicyProperty
 
 CONFIG, NAME = "rviz/robot.rviz", "config-property"
 FILES = {
@@ -55,6 +59,43 @@ Visualization Manager:
       Target Frame: <Fixed Frame>
 """,
 }
+VALUES = """\
+Visualization Manager:
+  Global Options:
+    Fixed Frame: base
+    Frame Rate: 30
+  Displays:
+    - Class: rviz_default_plugins/Grid
+      Alpha: 0.6
+      Color: 160; 160; 164
+      Enabled: true
+      Line Style:
+        Line Width: 0.03
+        Value: Lines
+      Offset:
+        X: 0
+        Y: 0
+        Z: 0,5
+      Plane: XY
+      Plane Cell Count: 10
+    - Class: rviz_default_plugins/RobotModel
+      Collision Enabled: false
+      Enabled: true
+      Visual Enabled: true
+    - Class: rviz_default_plugins/PointCloud2
+      Color: red
+      Enabled: true
+      Topic:
+        Depth: 5
+        Reliability Policy: Reliable
+        Value: /points
+  Views:
+    Current:
+      Class: rviz_default_plugins/Orbit
+      Distance: 10
+      Pitch: 2.5
+"""
+"""Values that RViz takes."""
 
 
 @pytest.fixture
@@ -97,17 +138,88 @@ def test_a_setting_that_has_no_effect_is_undone_by_its_edit(
     assert check(package) == []
 
 
-def test_all_properties_that_are_declared_are_in_the_vocabulary() -> None:
+def declared() -> Iterator[Property]:
+    """Yield what displays, tools and views declare, also below others."""
     known = declarations()
     waiting: list[Property] = [*known.global_options]
     for classes in (known.displays, known.tools, known.views):
         waiting += [each for kind in classes for each in classes[kind]]
-    names = set[str]()
     while waiting:
         one = waiting.pop()
-        names.add(one.name.replace(" ", "_"))
+        yield one
         waiting += one.children
+
+
+def test_all_properties_that_are_declared_are_in_the_vocabulary() -> None:
+    names = {one.name.replace(" ", "_") for one in declared()}
     assert names <= {*vocabulary("rviz_classes")["properties"]}
+
+
+KINDS: Mapping[type[Property], str] = {
+    BoolProperty: "bool",
+    IntProperty: "int",
+    FloatProperty: "float",
+    ColorProperty: "color",
+    EnumProperty: "one",
+    PolicyProperty: "policy",
+}
+
+
+def test_the_vocabulary_of_values_takes_what_each_display_takes() -> None:
+    table, met = vocabulary("rviz_values"), set[str]()
+    for one in declared():
+        name = one.name.replace(" ", "_")
+        if type(one) not in KINDS:
+            continue
+        met.add(name)
+        kind, *words = table[name]
+        assert kind == KINDS[type(one)] or (kind, type(one)) == ("float", IntProperty)
+        if kind in ("int", "float"):
+            low, _, high = words[0].partition("..") if words else ("", "", "")
+            assert not low or one.minimum >= float(low), name
+            assert not high or one.maximum <= float(high), name
+        else:
+            assert {option.replace(" ", "_") for option in one.options} <= {*words}
+    assert met == {*table}
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "edited"),
+    [
+        ("Alpha: 0.6", "Alpha: 0,6", True),
+        ("Color: 160; 160; 164", "Color: 160, 160, 164", True),
+        ("Color: 160; 160; 164", "Color: grye", False),
+        ("Line Width: 0.03", "Line Width: 3 cm", False),
+        ("Value: Lines", "Value: Liness", True),
+        ("Plane: XY", "Plane: XYZ", True),
+        ("Cell Count: 10", "Cell Count: 10.0", True),
+        ("Visual Enabled: true", "Visual Enabled: ture", True),
+        ("Collision Enabled: false", "Collision Enabled: no", True),
+        ("Y: 0", "Y: none", False),
+        ("Reliability Policy: Reliable", "Reliability Policy: Relable", True),
+        ("Frame Rate: 30", "Frame Rate: 30 Hz", False),
+        ("Distance: 10", "Distance: 10 m", False),
+    ],
+)
+def test_a_value_that_rviz_reads_otherwise_is_found(
+    package: Path, right: str, wrong: str, edited: bool
+) -> None:
+    path = package / CONFIG
+    path.write_text(VALUES)
+    assert check(package) == []
+    path.write_text(VALUES.replace(right, wrong))
+    (problem,) = check(package)
+    line = VALUES[: VALUES.index(right)].count("\n") + 1
+    assert (problem.code, problem.line) in (
+        ("config-value", line),
+        # All parts of a vector are one value, which begins with X.
+        ("config-value", line - 1),
+    )
+    if edited:
+        path.write_bytes(edited_files(problem.edits)[str(path)])
+        assert check(package) == []
+    else:
+        assert not problem.edits
 
 
 def test_settings_of_a_second_config_count_too(package: Path) -> None:

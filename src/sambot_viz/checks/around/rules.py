@@ -193,6 +193,7 @@ from sambot_viz.checks.around.topics.bridges import (
     scoped_frames,
 )
 from sambot_viz.checks.around.topics.clocks import clock_not_bridged, different_clocks
+from sambot_viz.checks.around.topics.display_values import unusable_values
 from sambot_viz.checks.around.topics.display_words import (
     robots_without_source,
     switched_off,
@@ -337,6 +338,7 @@ OF_FILES: tuple[Check, ...] = (
     misspelt_endings,
     unread_parameters,
     unknown_settings,
+    unusable_values,
     switched_off,
     unknown_frames_of_views,
     options_without_value,

@@ -17,6 +17,8 @@ from sambot_viz.rviz.yaml.yaml_nodes import Scalar
 Rgb: TypeAlias = tuple[int, int, int]
 
 _TRIPLE = re.compile(r"\s*([+-]?\d+)\s*;\s*([+-]?\d+)\s*;\s*([+-]?\d+)\s*(?:;.*)?")
+_OTHER_TRIPLE = re.compile(r"\W*(\d{1,3})[\s,;/]+(\d{1,3})[\s,;/]+(\d{1,3})\W*")
+"""Matches three numbers with signs between them that RViz does not know."""
 _HEX = re.compile(r"#([0-9a-fA-F]+)")
 
 
@@ -96,7 +98,11 @@ class ColorProperty(Property):
 
     def _parse(self, node: Scalar, report: Report) -> Rgb | None:
         color = parse_color(node.text)
-        return self._default_stays(node, report) if color is None else color
+        if color is None:
+            meant = _OTHER_TRIPLE.fullmatch(node.text)
+            right = "; ".join(meant.groups()) if meant else ""
+            return self._default_stays(node, report, right)
+        return color
 
     @property
     def _expected(self) -> str:

@@ -63,6 +63,7 @@ def read_bool(node: Scalar, report: Report, name: str) -> bool:
             node,
             f"'{name}' is {node.text!r}, which RViz reads as true; here it is false",
             "write false",
+            "false",
         )
         return False
     if text not in _MEANT_TRUE:
@@ -147,6 +148,7 @@ class IntProperty(_NumberProperty):
                 f"'{self.name}' is {node.text}, which RViz reads as {seen}; here it is "
                 f"{value}",
                 f"write {value}",
+                str(value),
             )
         return int(self._within(value, node, report))
 
@@ -196,6 +198,7 @@ class FloatProperty(_NumberProperty):
                     f"'{self.name}' is {node.text}, which RViz reads as "
                     f"{self.write(self._clamped(0.0))}; here it is {value:g}",
                     "write the number with a point",
+                    f"{value:g}",
                 )
         if value is None or math.isnan(value) or math.isinf(self._clamped(value)):
             return self._default_stays(node, report)

@@ -181,16 +181,17 @@ class Property:
     def _expected(self) -> str:
         return "a value"
 
-    def _default_stays(self, node: Scalar, report: Report) -> None:
+    def _default_stays(self, node: Scalar, report: Report, right: str = "") -> None:
         report(
             node,
             f"'{self.name}' is {node.text!r}, which is not {self._expected}; "
             f"{self._default_text()} is used",
-            f"write {self._expected}",
+            f"write {right or self._expected}",
+            right,
         )
 
     def _default_text(self) -> str:
-        text = self.write(self.default)
+        text = "" if self.default is None else self.write(self.default)
         return f"the default {text}" if text else "the default"
 
 

@@ -3,36 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
-from typing import NamedTuple
-
-import yaml
+from collections.abc import Iterator
 
 from sambot_viz.checks.around.files.gazebo import Fact
-from sambot_viz.checks.around.files.parameters import (
-    YamlFile,
-    each_mapping,
-    pairs,
-    place_of,
-)
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.topics.display_settings import (
+    OWN_PACKAGES,
+    Settings,
+    settings,
+)
 from sambot_viz.checks.around.words import meant_word
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import together, write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 
-_OWN = ("rviz_default_plugins", "rviz_common")
-_OPEN = frozenset(
-    """
-    Displays Frames Links Namespaces Saved Tools Transformation Tree Views Visibility
-    """.split()
-) | {"Global Options"}
-"""Keys above names of a robot or topic, or above other displays, tools and views."""
-_GLOBAL = {
-    name: f"rviz_common/{name}" for name in ("Visualization Manager", "Global Options")
-}
-"""Maps without a class that RViz itself reads."""
 _CLASS = re.compile(r"[A-Za-z][\w: /-]*")
 _OF_ALL = ("Class", "Enabled", "Name", "Topic")
 """Properties that displays of other packages also have."""
@@ -43,72 +28,9 @@ _FRAMES, _FIXED = ("Target Frame", "Reference Frame"), "<Fixed Frame>"
 """Properties that name a frame, and the text that means the fixed frame."""
 
 
-class _Settings(NamedTuple):
-    """A map in a config of RViz.
-
-    Attributes:
-        owner: the class of the display, tool or view that it belongs to.
-        values: its keys and values; only values that are texts.
-        keys: the keys, with their places.
-        above: the key above this display, tool or view; empty for a map in it.
-    """
-
-    owner: str
-    values: Mapping[str, Fact]
-    keys: Mapping[str, Fact]
-    above: str
-
-
-def _settings(around: Surroundings) -> Iterator[_Settings]:
-    """Yield the settings of all displays, tools and views in configs of RViz."""
-    for package in around.packages:
-        for file in package.configs.values():
-            yield from _in_config(file)
-
-
-def _in_config(file: YamlFile) -> Iterator[_Settings]:
-    for above, node in each_mapping(file.root):
-        values = _values(node, file.shown)
-        kind = values.get("Class") or _misspelt_class(values)
-        owner = (kind.value if kind is not None else "") or _GLOBAL.get(above, "")
-        for _, inner in each_mapping(node, left_out=_OPEN) if owner else ():
-            both = ((key.value, place_of(key, file.shown)) for key, _ in pairs(inner))
-            keys = {name: Fact(name, place) for name, place in both}
-            keys |= _beside_names(inner, file.shown)
-            yield _Settings(
-                owner, _values(inner, file.shown), keys, above * (inner is node)
-            )
-
-
-def _beside_names(node: yaml.Node, shown: str) -> dict[str, Fact]:
-    """Return the settings among the frames and the links, each of which is a map."""
-    inside = (value for key, value in pairs(node) if key.value in ("Frames", "Links"))
-    return {
-        key.value: Fact(key.value, place_of(key, shown))
-        for each in inside
-        for key, value in pairs(each)
-        if isinstance(value, yaml.ScalarNode)
-    }
-
-
-def _values(node: yaml.Node, shown: str) -> dict[str, Fact]:
-    """Return the keys of a mapping with their values that are texts."""
-    return {
-        key.value: Fact(value.value, place_of(value, shown))
-        for key, value in pairs(node)
-        if isinstance(value, yaml.ScalarNode)
-    }
-
-
-def _misspelt_class(values: Mapping[str, Fact]) -> Fact | None:
-    """Return the class that follows a misspelt key."""
-    kinds = (v for k, v in values.items() if is_one_slip(k, "Class"))
-    return next((kind for kind in kinds if "/" in kind.value), None)
-
-
 def unknown_frames_of_views(around: Surroundings) -> Iterator[Problem]:
     """Report misspelt <Fixed Frame>."""
-    for one in _settings(around):
+    for one in settings(around):
         for key in _FRAMES:
             said = one.values.get(key)
             if said is None or said.value == _FIXED:
@@ -129,10 +51,10 @@ def unknown_settings(around: Surroundings) -> Iterator[Problem]:
     table = vocabulary("rviz_classes")
     classes = [
         f"{package}/{name.replace('_', ' ')}"
-        for package in _OWN
+        for package in OWN_PACKAGES
         for name in table[package]
     ]
-    for one in _settings(around):
+    for one in settings(around):
         package, _, name = one.owner.rpartition("/")
         kind = one.values.get("Class")
         near = nearest(one.owner, classes, _LIKE_CLASS) if kind else None
@@ -150,7 +72,7 @@ def unknown_settings(around: Surroundings) -> Iterator[Problem]:
         known = table["properties"]
         for key in one.keys.values():
             word = key.value.replace(" ", "_")
-            if package in _OWN:
+            if package in OWN_PACKAGES:
                 right = meant_word(known, word, _LIKE_PROPERTY)
             else:
                 slips = (each for each in _OF_ALL if is_one_slip(word, each))
@@ -169,7 +91,7 @@ def unknown_settings(around: Surroundings) -> Iterator[Problem]:
                 )
 
 
-def _no_class(kind: Fact, one: _Settings, classes: list[str]) -> Problem:
+def _no_class(kind: Fact, one: Settings, classes: list[str]) -> Problem:
     """Report a Class without a package; another key may have the class."""
     other = next((each for each in one.values.values() if each.value in classes), None)
     fix = Fix("write a class such as rviz_default_plugins/Grid")
@@ -190,7 +112,7 @@ def _no_class(kind: Fact, one: _Settings, classes: list[str]) -> Problem:
 
 def switched_off(around: Surroundings) -> Iterator[Problem]:
     """Report displays without Enabled, which RViz leaves off."""
-    for one in _settings(around):
+    for one in settings(around):
         kind = one.values.get("Class")
         given = any(is_one_slip(key, on) for key in one.keys for on in _ON)
         if one.above == "Displays" and kind is not None and not given:
@@ -209,7 +131,7 @@ def switched_off(around: Surroundings) -> Iterator[Problem]:
 
 def robots_without_source(around: Surroundings) -> Iterator[Problem]:
     """Report displays of a robot that name no file, or a prefix that no frame has."""
-    for one in _settings(around):
+    for one in settings(around):
         if not one.above or one.owner.rpartition("/")[2] != "RobotModel":
             continue
         source, file = (one.values.get(f"Description {n}") for n in ("Source", "File"))
