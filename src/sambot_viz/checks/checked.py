@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -208,8 +208,7 @@ def _of_configs(target: CheckedModel, robot: Robot) -> list[Problem]:
     for package in target.packages:
         opened = _opened(package)
         for path in _others(package):
-            # Only the launch file that opens another config shows its robot.
-            of_file = _of_config(package, around if path in opened else None, path)
+            of_file = _of_config(package, around, path, is_opened=path in opened)
             found += [p for p in of_file if p.code not in _OF_FIRST]
     return found
 
@@ -240,13 +239,21 @@ def _opened(package: Package) -> list[Path]:
 
 
 def _of_config(
-    package: Package, around: Surroundings | None = None, path: Path | None = None
+    package: Package,
+    around: Surroundings | None = None,
+    path: Path | None = None,
+    *,
+    is_opened: bool = True,
 ) -> list[Problem]:
-    """Return the problems of a .rviz file of a package, by default its first."""
+    """Return the problems of a .rviz file of a package, by default its first.
+
+    One that no launch file opens may be for another robot.
+    """
     from sambot_viz.checks.around.frames.published import may_be_published
     from sambot_viz.checks.around.workspace import shown
     from sambot_viz.checks.config_against_robot import (
         check_config,
+        lists_links,
         moveit_draws_robot,
     )
     from sambot_viz.rviz import Declarations, RvizConfig
@@ -263,12 +270,16 @@ def _of_config(
     if around is None:
         return found
     frame = str(config.global_options.get("Fixed Frame"))
+    is_guess = not is_opened
     excuses = {
-        "setup-fixed-frame": lambda: may_be_published(around, frame),
+        "setup-fixed-frame": lambda: (
+            may_be_published(around, frame)
+            or (is_guess and not lists_links(around.robot, config))
+        ),
         "setup-no-robot-model": lambda: moveit_draws_robot(config),
     }
     return found + [
-        problem
+        replace(problem, severity="info") if is_guess else problem
         for problem in check_config(around.robot, config)
         if problem.code not in excuses or not excuses[problem.code]()
     ]

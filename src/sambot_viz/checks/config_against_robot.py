@@ -27,6 +27,8 @@ _DESCRIPTION = "robot_description"
 _ROBOT_MODEL = "rviz_default_plugins/RobotModel"
 _OF_MOVEIT = "moveit_rviz_plugin/"
 _LIKENESS = 0.87
+_OF_THE_WORLD = frozenset({"map", "odom", "world"})
+"""Frames that programs outside the packages publish, and no robot has."""
 
 
 def check_config(robot: Robot, config: RvizConfig) -> list[Problem]:
@@ -61,6 +63,21 @@ def moveit_draws_robot(config: RvizConfig) -> bool:
     """Return whether RViz draws the robot with a display of MoveIt."""
     displays = _all(config.displays)
     return any(d.enabled and d.class_id.startswith(_OF_MOVEIT) for d in displays)
+
+
+def lists_links(robot: Robot, config: RvizConfig) -> bool:
+    """Return whether a config has settings for the links of this robot.
+
+    RViz saves them for all links, and frames, of the robot that it has shown.
+    """
+    listed: set[str] = set()
+    for display in _all(config.displays):
+        for key in ("Links", "Frames"):
+            inside = display.node.get(key)
+            if isinstance(inside, Map):
+                listed |= {k for k in inside.keys() if isinstance(inside.get(k), Map)}
+    own = listed & robot.links.keys()
+    return len(own) > 1 and 2 * len(own) > len(listed)
 
 
 def _misspelt_classes(config: RvizConfig) -> Iterator[Problem]:
@@ -176,6 +193,7 @@ def _is_robot_model(display: DisplayConfig) -> bool:
 
 
 def _fixed_frame(robot: Robot, config: RvizConfig) -> Iterator[Problem]:
+    written = str(config.global_options.node.text("Fixed Frame") or "")
     frame = str(config.global_options.get("Fixed Frame")).lstrip("/")
     said = {*config.global_options.node.keys()}
     misspelt = "Fixed Frame" not in said and nearest("Fixed Frame", said, _LIKENESS)
@@ -183,13 +201,19 @@ def _fixed_frame(robot: Robot, config: RvizConfig) -> Iterator[Problem]:
         return
     near = did_you_mean(frame, robot.links)
     better = f"{near}; " if near.startswith("did you mean") else ""
+    place = _place(config.file, config.global_options.node.get("Fixed Frame"))
+    hint: str | Fix = f"{better}choose {robot.root}, the root of this robot"
+    if frame not in _OF_THE_WORLD and isinstance(place, Place):
+        hint = write(
+            place, written, nearest(frame, robot.links) or robot.root, hint=hint
+        )
     yield Problem.at(
-        _place(config.file, config.global_options.node.get("Fixed Frame")),
+        place,
         "warning",
         "setup-fixed-frame",
         f"the fixed frame {frame} does not exist: no link of the robot has this name, "
         "and without ROS nothing else publishes it",
-        f"{better}choose {robot.root}, the root of this robot",
+        hint,
     )
 
 

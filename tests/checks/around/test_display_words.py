@@ -252,3 +252,98 @@ def test_the_fixed_frame_counts_in_each_config_that_is_opened(package: Path) -> 
     )
     found = [p for p in check(package) if p.code == "setup-fixed-frame"]
     assert [p.file for p in found] == [str(package / "rviz/second.rviz")]
+    assert [p.severity for p in found] == ["warning"]
+
+
+def test_the_fixed_frame_of_a_config_with_this_robot_s_links_is_a_guess(
+    package: Path,
+) -> None:
+    (package / "robot.urdf").write_text(TWO_LINKS)
+    links = "Links:\n        base: {Alpha: 1}\n        arm: {Alpha: 1}"
+    text = (package / CONFIG).read_text().replace("Links:", links)
+    second = package / "rviz/second.rviz"
+    second.write_text(text.replace("Frame: base", "Frame: chassis"))
+    (problem,) = check(package)
+    assert (problem.code, problem.severity) == ("setup-fixed-frame", "info")
+    assert edited_files(problem.edits)[str(second)].decode() == text
+    second.write_text(text.replace("Frame: base", "Frame: map"))
+    (problem,) = check(package)
+    assert not problem.edits
+
+
+TWO_LINKS = """\
+<robot name="r">
+  <link name="base"/>
+  <link name="arm"/>
+  <joint name="shoulder" type="fixed"><parent link="base"/><child link="arm"/></joint>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("given", "prefix", "right"),
+    [
+        ("", "robot", '""'),
+        ('<param name="frame_prefix" value="cart/"/>', "carrt", "cart"),
+        ('<param name="frame_prefix" value="cart/"/>', "cart", None),
+        ('<param name="frame_prefix" value="$(env PREFIX)"/>', "cart", None),
+    ],
+)
+def test_the_prefix_of_the_frames_is_that_of_the_launch_file(
+    package: Path, given: str, prefix: str, right: str | None
+) -> None:
+    launched(package, given)
+    path = package / CONFIG
+    path.write_text(path.read_text().replace('Prefix: ""', f"Prefix: {prefix}"))
+    found = [p for p in check(package) if p.code == "frame-unknown"]
+    assert len(found) == (right is not None)
+    if right is not None:
+        edited = edited_files(found[0].edits)[str(path)].decode()
+        assert f"TF Prefix: {right}\n" in edited
+
+
+@pytest.mark.parametrize(
+    ("written", "namespace", "right"),
+    [
+        ("/robot/robot_description", "", "/robot_description"),
+        ("/robot_description", "cart", "/cart/robot_description"),
+        ("/cart/robot_description", "cart", None),
+        ("/cart/robot_description", "$(env SPACE)", None),
+    ],
+)
+def test_the_robot_is_read_from_the_namespace_that_has_it(
+    package: Path, written: str, namespace: str, right: str | None
+) -> None:
+    launched(package, "", f'namespace="{namespace}"' if namespace else "")
+    path = package / CONFIG
+    topic = f"Description Topic:\n        Value: {written}\n      Enabled"
+    path.write_text(path.read_text().replace("Enabled", topic, 1))
+    found = [p for p in check(package) if p.code == "setup-description-topic"]
+    assert len(found) == (right is not None)
+    if right is not None:
+        edited = edited_files(found[0].edits)[str(path)].decode()
+        assert f"Value: {right}\n" in edited
+
+
+def launched(package: Path, parameter: str, attributes: str = "") -> None:
+    """Write a launch file that starts the robot and RViz."""
+    (package / "launch").mkdir()
+    (package / "launch/view.launch.xml").write_text(
+        f"""<launch>
+  <node pkg="robot_state_publisher" exec="robot_state_publisher" {attributes}>
+    <param name="robot_description" value="$(command 'cat robot.urdf')"/>{parameter}
+  </node>
+  <node pkg="rviz2" exec="rviz2" args="-d $(find-pkg-share robot)/{CONFIG}"/>
+</launch>
+"""
+    )
+
+
+def test_a_map_that_is_volatile_is_a_guess(package: Path) -> None:
+    path, text = package / CONFIG, (package / CONFIG).read_text()
+    policy = "Depth: 5\n        Durability Policy: "
+    path.write_text(text.replace("Depth: 5", f"{policy}Volatile"))
+    (problem,) = check(package)
+    assert (problem.code, problem.severity) == ("display-volatile", "info")
+    right = text.replace("Depth: 5", f"{policy}Transient Local")
+    assert edited_files(problem.edits)[str(path)].decode() == right

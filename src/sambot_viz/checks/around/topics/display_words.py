@@ -146,15 +146,44 @@ def robots_without_source(around: Surroundings) -> Iterator[Problem]:
             )
         prefix = one.values.get("TF Prefix")
         name = prefix.value.strip("/") if prefix is not None else ""
-        if prefix is None or not name or around.namespaced or not around.links:
+        if prefix is None or not name or not around.links:
             continue
-        used = any(link.startswith(f"{name}/") for link in around.links)
-        if not used and not around.said_elsewhere(name):
+        if any(link.startswith(f"{name}/") for link in around.links):
+            continue
+        given = _frame_prefixes(around)
+        unsure = given is None and (
+            around.namespaced
+            or any(node.parameter("frame_prefix") for node in around.running.started)
+            or around.said_elsewhere(name)
+        )
+        if not unsure and name not in (given or ()):
+            (right,) = given if given and len(given) == 1 else ("",)
+            text = right or '""'
             yield Problem.at(
                 prefix.place,
                 "warning",
                 "frame-unknown",
                 f"the display RobotModel looks for frames that begin with {name}/, and "
                 "no launch file gives them this prefix: each link has an error",
-                write(prefix.place, prefix.value, '""', hint='write TF Prefix: ""'),
+                write(
+                    prefix.place,
+                    prefix.value,
+                    text,
+                    hint=f"write TF Prefix: {text}",
+                ),
             )
+
+
+def _frame_prefixes(around: Surroundings) -> set[str] | None:
+    """Return the prefixes that launch files give the frames; None when uncertain."""
+    found = set[str]()
+    for node in around.running.started:
+        if node.executable == "robot_state_publisher":
+            given = node.parameter("frame_prefix")
+            is_known = (
+                node.parameters_known if given is None else given.value is not None
+            )
+            if not is_known:
+                return None
+            found.add((given.value or "" if given is not None else "").strip("/"))
+    return found if found and around.running.is_whole else None

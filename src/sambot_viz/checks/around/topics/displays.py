@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
+from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
@@ -81,10 +82,13 @@ def _wrong(
     kind = _short(each.message)
     sources = [p for p in published if p.topic.value == whole]
     if kind == _MODEL:
+        yield from _of_robot(around, node, whole, each, published)
         return
     if any(p.kind == kind for p in sources):
         yield from _volatile(around, node, whole, each)
         return
+    if not sources:
+        yield from _usually_once(each, bare(whole))
     fitting = [p for p in published if p.kind == kind]
     shown = {topic for topic, other in others if other is not each}
     if any(p.is_simulated and p.kind not in _CARRIED for p in sources):
@@ -99,8 +103,11 @@ def _wrong(
     is_only = near is None and node.starts == "yes"
     if is_only:
         near = _meant(around, bare(whole), kind, known, shown)
+    is_guess = near is None
+    if near is None and not around.namespaced and kind in _SENSED:
+        near = _of_another_namespace(bare(whole), known)
     if near is not None and not around.said_elsewhere(bare(whole), as_topic=True):
-        certain = not is_only or around.running.is_known
+        certain = not is_guess and (not is_only or around.running.is_known)
         yield _unpublished(each, known[near], "warning" if certain else "info")
 
 
@@ -133,6 +140,13 @@ def _meant(
     free = {topic: p for topic, p in known.items() if f"/{topic}" not in shown}
     only = next(iter(free)) if len(free) == 1 else None
     return (meant_topic(name, free) or only) if is_known else only
+
+
+def _of_another_namespace(name: str, known: Collection[str]) -> str | None:
+    """Return the only topic of the type, if only its namespace is another one."""
+    last = name.rpartition("/")[2]
+    same = [topic for topic in known if topic.rpartition("/")[2] == last]
+    return same[0] if len(known) == len(same) == 1 else None
 
 
 def _unpublished(each: DisplayTopic, source: Published, severity: Severity) -> Problem:
@@ -174,6 +188,49 @@ def _other_type(
     )
 
 
+def _of_robot(
+    around: Surroundings,
+    node: RunningNode,
+    whole: str,
+    each: DisplayTopic,
+    published: Sequence[Published],
+) -> Iterator[Problem]:
+    """Report a robot description in a namespace where nothing publishes it."""
+    last = whole.rpartition("/")[2]
+    sources = {
+        p.topic.value: p
+        for p in published
+        if p.kind == _MODEL and p.topic.value.endswith(f"/{last}")
+    }
+    are_placed = all(other.namespace for other in around.running.started)
+    if len(sources) != 1 or whole in sources or not are_placed:
+        return
+    ((right, source),) = sources.items()
+    is_certain = node.starts == "yes" and around.running.is_whole
+    place = each.topic.place
+    yield Problem.at(
+        place,
+        "warning" if is_certain else "info",
+        "setup-description-topic",
+        f"the display {each.name} reads the robot from the topic {whole}, but "
+        f"{source.what} publishes it on {right} ({where(source.topic.place, place)})",
+        write(place, each.topic.value, right, hint=f"write Value: {right}"),
+    )
+
+
+def _usually_once(each: DisplayTopic, name: str) -> Iterator[Problem]:
+    """Report a volatile topic that a well-known node publishes only once."""
+    policy = each.policies.get("Durability Policy")
+    if policy is None or policy.value != "Volatile":
+        return
+    for known in dict.fromkeys(known_nodes().nodes.values()):
+        for row in known.rows:
+            usual = row.words[0].rpartition("=")[2] if row.words else ""
+            if row.latched == "once" and (usual, row.words[1]) == (name, each.message):
+                follows = "only once: RViz misses it"
+                yield _missed(each, policy, "info", known.name, follows)
+
+
 def _volatile(
     around: Surroundings, node: RunningNode, whole: str, each: DisplayTopic
 ) -> Iterator[Problem]:
@@ -187,20 +244,24 @@ def _volatile(
     for other, _ in (beside or kept)[:1]:
         once = all(end.latched == "once" for _, end in beside or kept)
         follows = "only once: RViz misses it" if once else "seldom: RViz waits for it"
-        right = "Transient Local"
-        yield Problem.at(
-            policy.place,
-            "warning" if once else "info",
-            "display-volatile",
-            f"the display {each.name} reads {each.topic.value} with the Durability "
-            f"Policy Volatile, but {other.path.strip('/')} publishes it {follows}",
-            write(
-                policy.place,
-                "Volatile",
-                right,
-                hint=f"write Durability Policy: {right}",
-            ),
-        )
+        severity = "warning" if once else "info"
+        yield _missed(each, policy, severity, other.path.strip("/"), follows)
+
+
+def _missed(
+    each: DisplayTopic, policy: Fact, severity: Severity, source: str, follows: str
+) -> Problem:
+    right = "Transient Local"
+    return Problem.at(
+        policy.place,
+        severity,
+        "display-volatile",
+        f"the display {each.name} reads {each.topic.value} with the Durability Policy "
+        f"Volatile, but {source} publishes it {follows}",
+        write(
+            policy.place, "Volatile", right, hint=f"write Durability Policy: {right}"
+        ),
+    )
 
 
 def _of_tool(around: Surroundings, whole: str, each: DisplayTopic) -> Iterator[Problem]:
