@@ -40,6 +40,11 @@ from sambot_viz.checks.around.gazebo.world_systems import (
     missing_systems,
     plugins_of_worlds,
     unreadable_worlds,
+)
+from sambot_viz.checks.around.gazebo.world_values import (
+    models_of_classic,
+    numbers_of_worlds,
+    planes_that_fall,
     values_of_worlds,
 )
 from sambot_viz.checks.around.joint_names import joints_of_controllers
@@ -348,6 +353,9 @@ OF_FILES: tuple[Check, ...] = (
     unreadable_worlds,
     plugins_of_worlds,
     values_of_worlds,
+    numbers_of_worlds,
+    planes_that_fall,
+    models_of_classic,
 )
 """The rules about launch files and parameters, with or without a robot."""
 

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Sequence
 from sambot_viz.checks.around.files.gazebo import Fact, Plugin, facts, plugins
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.edits import write, write_attribute
-from sambot_viz.errors import Problem, nearest
+from sambot_viz.edits import exchange_attributes, write, write_attribute
+from sambot_viz.errors import Fix, Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 from sambot_viz.robot.xml.element import Element
@@ -76,7 +76,11 @@ def faulty_system(plugin: Element) -> Problem | None:
     filename = plugin.get("filename") or ""
     name = (plugin.get("name") or "").strip()
     near, right = near_system(filename), _class_of(filename)
-    if near is not None:
+    if "::" in filename and _FILE.fullmatch(name) is not None:
+        what = f"{filename} is a class and {name} its file: Gazebo finds no such file"
+        edits = exchange_attributes(plugin.place, "filename", "name")
+        fix = Fix(f'write filename="{name}" and name="{filename}"', edits)
+    elif near is not None:
         what = f"Gazebo has no plugin {filename}: it does not load it"
         fix = write_attribute(plugin.place, "filename", filename, near)
     elif right is not None and not _is_class(name, right):

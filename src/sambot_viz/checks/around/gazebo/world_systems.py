@@ -12,18 +12,15 @@ from sambot_viz.checks.around.gazebo.spawning import spawned_with
 from sambot_viz.checks.around.gazebo.systems import faulty_system, near_system
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.edits import write
-from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element, parse_xml
 
 _WORLD = re.compile(r"<world\s")
 _SYSTEM = re.compile(
-    r"<plugin[^>]*filename\s*=\s*[\"'](?:lib)?(?:gz-sim|ignition-gazebo)\d*(-[\w-]+?)"
+    r"<plugin[^>]*name\s*=\s*[\"'](?:lib)?(?:gz-sim|ignition-gazebo)\d*(-[\w-]+?)"
     r"(?:\.so)?[\"']"
 )
-_VECTORS = ("gravity", "magnetic_field")
-_ENGINES = ("ogre2", "ogre")
 _PHYSICS, _SCENE = "gz-sim-physics-system", "gz-sim-scene-broadcaster-system"
 _RENDERED = ("gz-sim-sensors-system", "Sensors")
 _NEEDED: dict[str, tuple[str, str]] = {
@@ -133,40 +130,13 @@ def unreadable_worlds(around: Surroundings) -> Iterator[Problem]:
 
 def plugins_of_worlds(around: Surroundings) -> Iterator[Problem]:
     """Report plugins of a world that Gazebo does not load."""
-    for element in _elements(around):
+    for element in elements_of_worlds(around):
         problem = faulty_system(element) if element.tag == "plugin" else None
         if problem is not None:
             yield problem
 
 
-def values_of_worlds(around: Surroundings) -> Iterator[Problem]:
-    """Report vectors of a world without three numbers, and unknown engines."""
-    for element in _elements(around):
-        said = element.text.strip()
-        if element.tag in _VECTORS and said and len(said.split()) != 3:
-            alone = element.tag == "gravity" and len(said.split()) == 1
-            right = f"0 0 {said}" if alone else ""
-            yield Problem.at(
-                element.place,
-                "error",
-                "sdf-value",
-                f"<{element.tag}>{said}</{element.tag}> of the world is not three "
-                "numbers: Gazebo does not load the world",
-                write(element.place, said, right) if right else "write three numbers",
-            )
-        elif element.tag == "render_engine" and said not in _ENGINES:
-            if nearest(said, _ENGINES) is not None:
-                yield Problem.at(
-                    element.place,
-                    "warning",
-                    "world-system",
-                    f"Gazebo has no render engine {said}: cameras and lidars send "
-                    "nothing",
-                    write(element.place, said, _ENGINES[0]),
-                )
-
-
-def _elements(around: Surroundings) -> Iterator[Element]:
+def elements_of_worlds(around: Surroundings) -> Iterator[Element]:
     """Yield the elements of the worlds themselves, without those of models."""
     for shown, text in _worlds(around).items():
         world = _read(text, shown)
