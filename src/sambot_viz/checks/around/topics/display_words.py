@@ -150,6 +150,9 @@ def robots_without_source(around: Surroundings) -> Iterator[Problem]:
             continue
         if any(link.startswith(f"{name}/") for link in around.links):
             continue
+        if any(e.kind == "Pose_V" and e.scoped for e in around.bridged):
+            # A bridge carries the frames of Gazebo, which begin with the model's name.
+            continue
         given = _frame_prefixes(around)
         unsure = given is None and (
             around.namespaced
