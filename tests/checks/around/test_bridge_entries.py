@@ -72,3 +72,16 @@ def test_joint_states_that_are_sent_to_a_topic_of_gazebo(copied: Copied) -> None
     assert problem.file == str(model)
     assert "has no <topic>" in problem.message
     assert problem.hint == f"add {topic} to the plugin"
+
+
+@pytest.mark.parametrize("key", ["gz_topic", "gz_topc_name"])
+def test_a_misspelt_key_is_read_as_it_is_meant(copied: Copied, key: str) -> None:
+    folder = copied("gz")
+    bridge = folder / BRIDGE
+    right = bridge.read_text()
+    assert "gz_topic_name" in right
+    bridge.write_text(right.replace("gz_topic_name", key, 1))
+
+    (problem,) = check(folder / MODEL)
+
+    assert (problem.code, problem.hint) == ("bridge-entry", "write gz_topic_name")

@@ -6,8 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from edited import edited_files
 
 from sambot_viz.checks import check
+from sambot_viz.errors import Problem
 
 MODEL = "urdf/cart.urdf.xacro"
 NAV2 = "config/nav2_params.yaml"
@@ -35,6 +37,16 @@ global_costmap:
       robot_radius: 0.3
 """
 
+MANIFEST = """\
+<package format="3">
+  <name>robot</name>
+  <version>0.0.1</version>
+  <description>A robot.</description>
+  <maintainer email="me@example.org">me</maintainer>
+  <license>MIT</license>
+</package>
+"""
+
 Copied = Callable[[str], Path]
 
 
@@ -46,7 +58,7 @@ Copied = Callable[[str], Path]
             SOURCES,
             "observation_sources: laser",
             24,
-            "observation_sources names laser, but the section is called scan (line 26)",
+            "observation_sources names laser, but the section is called scan (line 25)",
             "write scan",
             SOURCES,
         ),
@@ -196,3 +208,102 @@ def test_what_nav2_reads_is_not_reported(
     assert right in text
     nav2.write_text(text.replace(right, other, 1))
     assert check(package / MODEL) == []
+
+
+SERVER = """\
+controller_server:
+  ros__parameters:
+    controller_plugins: ["FollowPath"]
+    FollowPath:
+      plugin: nav2_mppi_controller::MPPIController
+      motion_model: DiffDrive
+local_costmap:
+  local_costmap:
+    ros__parameters:
+      plugins: [obstacle_layer, inflation_layer]
+      obstacle_layer:
+        plugin: nav2_costmap_2d::ObstacleLayer
+        observation_sources: laser
+        laser:
+          data_type: LaserScan
+      inflation_layer:
+        plugin: nav2_costmap_2d::InflationLayer
+        inflation_radius: 0.55
+"""
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "line", "cause"),
+    [
+        (
+            "    FollowPath:",
+            "    followPath:",
+            4,
+            "controller_plugins names FollowPath (line 3), but this section is called",
+        ),
+        ("DiffDrive", "Diffdrive", 6, "knows only DiffDrive, Omni and Ackermann"),
+        ("DiffDrive", "omni", 6, "knows only DiffDrive, Omni and Ackermann"),
+        (
+            """\
+      inflation_layer:
+        plugin: nav2_costmap_2d::InflationLayer
+        inflation_radius: 0.55
+""",
+            """\
+        inflation_layer:
+          plugin: nav2_costmap_2d::InflationLayer
+          inflation_radius: 0.55
+""",
+            16,
+            "plugins names inflation_layer (line 10), but this section is inside",
+        ),
+        (
+            "        laser:\n          data",
+            "      laser:\n        data",
+            14,
+            "names laser (line 13), but this section is beside obstacle_layer",
+        ),
+        (
+            "      inflation_layer:\n",
+            "",
+            16,
+            "obstacle_layer has a second plugin here: the line inflation_layer: is",
+        ),
+    ],
+)
+def test_a_section_with_another_name_or_level_is_mended(
+    tmp_path: Path, right: str, wrong: str, line: int, cause: str
+) -> None:
+    file = tmp_path / "nav2_params.yaml"
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    file.write_text(SERVER)
+    assert _problems(tmp_path) == []
+    assert right in SERVER
+    file.write_text(SERVER.replace(right, wrong, 1))
+
+    first, *_ = _problems(tmp_path)
+
+    assert (first.line, cause in first.message) == (line, True), first.message
+    right = SERVER.replace(right, "Omni") if wrong == "omni" else SERVER
+    assert edited_files(first.edits)[str(file)].decode() == right
+
+
+@pytest.mark.parametrize(
+    "other", ["my_model\n      my_model: {plugin: mine::Model}", "Ackermann"]
+)
+def test_a_motion_model_of_ones_own(tmp_path: Path, other: str) -> None:
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    text = SERVER.replace("DiffDrive", other)
+    (tmp_path / "nav2_params.yaml").write_text(text)
+    assert _problems(tmp_path) == []
+
+
+def test_a_text_for_a_list_is_no_list_of_names(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    text = SERVER.replace("[obstacle_layer, inflation_layer]", '"obstacle_layer, b"')
+    (tmp_path / "nav2_params.yaml").write_text(text)
+    assert [p.code for p in _problems(tmp_path)] == ["parameter-type"]
+
+
+def _problems(package: Path) -> list[Problem]:
+    return [p for p in check(package) if p.code != "package-without-model"]

@@ -69,26 +69,31 @@ def rewritten(node: ast.expr | ast.stmt, file: str, right: str, hint: str = "") 
     return write_between(begin, end, right, hint or f"write {right}")
 
 
-def moved_right(place: Place, blanks: int, *, whole: bool) -> Fix:
-    """Return the fix that moves lines of YAML to the right.
+def moved(place: Place, blanks: int, items: int = 1) -> Fix:
+    """Return the fix that moves lines of YAML to the right, or to the left.
 
     Args:
         place: the beginning of the first of them, with its column.
-        blanks: the number of columns.
-        whole: also move the following lines at the same level, not only those below.
+        blanks: the number of columns, less than 0 to the left.
+        items: the number of entries at the same level, each with the lines below it.
     """
-    hint = f"write {blanks} blanks more before this line and those that belong to it"
+    word = f"write {blanks} blanks more" if blanks > 0 else f"delete {-blanks} blanks"
+    hint = f"{word} before this line and those that belong to it"
     source, column = source_of(place.file), (place.column or 1) - 1
     if source is None:
         return Fix(hint)
-    lines = source.text.split("\n")[place.line - 1 :]
+    lines, met = source.text.split("\n")[place.line - 1 :], 0
     fixes: list[Fix] = []
     for number, line in enumerate(lines, place.line):
         depth, text = len(line) - len(line.lstrip()), line.strip()
-        is_beside = depth == column and number > place.line
-        if text and text[0] != "#" and (depth < column or (is_beside and not whole)):
+        met += bool(text) and text[0] != "#" and depth == column and text[:2] != "- "
+        if text and text[0] != "#" and (depth < column or met > items):
             break
-        if text and depth >= column:
-            at = Place(place.file, number, 1)
-            fixes.append(write_between(at, at, " " * blanks, hint))
+        if text and depth >= max(column, -blanks):
+            at, end = (
+                Place(place.file, number, 1),
+                Place(place.file, number, 1 - blanks),
+            )
+            both = (at, at, " " * blanks) if blanks > 0 else (at, end, "")
+            fixes.append(write_between(*both, hint))
     return together(hint, *fixes)

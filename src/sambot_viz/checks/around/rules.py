@@ -160,7 +160,6 @@ from sambot_viz.checks.around.parameters.footprint import (
 from sambot_viz.checks.around.parameters.names import (
     unknown_parameters,
     unknown_plugins,
-    unknown_sections,
 )
 from sambot_viz.checks.around.parameters.nav2_sections import (
     misspelt_nodes,
@@ -171,6 +170,7 @@ from sambot_viz.checks.around.parameters.node_parameters import (
     parameters_left_out,
     unread_parameters,
 )
+from sambot_viz.checks.around.parameters.sections import unknown_sections
 from sambot_viz.checks.around.parameters.slips import (
     incomplete_nodes,
     maps_that_do_not_load,

@@ -82,7 +82,8 @@ class KnownParameter:
         high: the highest usual number.
         above: a number must be above `low`.
         strict: the node stops with another number or word.
-        words: the only allowed words; empty for any.
+        words: the only allowed words; empty for any. With "..." in them, others are
+            allowed too, except misspelt ones.
         base: the base class of the plugins that it names.
         pattern: the class of a name in a list, with * for the name.
         own: lists of names that need no sections, because the node has these built in.

@@ -1,4 +1,4 @@
-"""Check names of parameters, plugins and parts of well-known nodes."""
+"""Check names of parameters and plugins of well-known nodes."""
 
 from __future__ import annotations
 
@@ -18,11 +18,9 @@ from sambot_viz.checks.around.parameters.node_parts import (
     parts_by_node,
 )
 from sambot_viz.checks.around.parameters.text import instead, type_of
-from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import source_of, together, write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
-from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _LIKENESS = 0.85
 _DIGIT = re.compile(r"\d")
@@ -249,92 +247,3 @@ def _right_name(name: str, known: KnownParameter, part: NodePart) -> str | None:
     if any(key in part.sections.get(name, {}) for key in ("class", "plugin")):
         return None
     return nearest(name, names, _LIKENESS)
-
-
-def unknown_sections(around: Surroundings) -> Iterator[Problem]:
-    """Report layers, plugins and sensors with another name in their list."""
-    for part in (part for parts in parts_by_node(around) for part in parts):
-        named = {name for one, _ in part.lists() for name in names_in(one)}
-        for one, known in part.lists():
-            for name in names_in(one):
-                yield from _split_section(name, named, part)
-            if known.pattern:
-                continue
-            is_plugin = known.base != ""
-            filled = [s for s, inner in part.sections.items() if "plugin" in inner]
-            present = filled if is_plugin else list(part.sections)
-            left = [section for section in present if section not in named]
-            lacking = [name for name in names_in(one) if name not in present]
-            for name in lacking:
-                near = left[0] if len(left) == 1 else nearest(name, left, 0.8)
-                if near is not None:
-                    yield _other_section(one, name, near, part, is_plugin=is_plugin)
-                elif is_plugin and _lacks(one, name, known, part, around):
-                    yield _no_section(one, name, part)
-
-
-def _other_section(
-    one: Parameter, name: str, near: str, part: NodePart, *, is_plugin: bool
-) -> Problem:
-    place = next(iter(part.sections[near].values())).place
-    follows = f"{part.node} stops with an error"
-    return Problem.at(
-        one.value_place,
-        "error" if is_plugin else "warning",
-        "nav2-section",
-        f"{one.name} names {name}, but the section is called {near} "
-        f"({where(place, one.place)}): "
-        + (follows if is_plugin else "what is below it is not used"),
-        write(one.value_place, name, near),
-    )
-
-
-def _split_section(name: str, named: set[str], part: NodePart) -> Iterator[Problem]:
-    """Report lines in a misspelt section, beside the right one of a listed name."""
-    for other, inner in part.sections.items():
-        is_slip = other not in named and is_one_slip(other, name)
-        if not is_slip or name not in part.sections or _DIGIT.search(name + other):
-            continue
-        for below, parameter in inner.items():
-            yield Problem.at(
-                parameter.place,
-                "warning",
-                "nav2-section",
-                f"{part.title} lists {name}, but this is for {other}: it does not read "
-                "this line",
-                write(
-                    parameter.place,
-                    f"{other}.{below}",
-                    f"{name}.{below}",
-                    hint=f"write {name}",
-                ),
-            )
-
-
-def _lacks(
-    one: Parameter,
-    name: str,
-    known: KnownParameter,
-    part: NodePart,
-    around: Surroundings,
-) -> bool:
-    """Return whether a file has other plugins of a list, and none has this one."""
-    names = names_in(one)
-    if tuple(names) in known.own or known.kind == "section":
-        return False
-    others = any("plugin" in part.sections.get(other, {}) for other in names)
-    wanted = f"{name}.plugin"
-    elsewhere = any(p.name.endswith(wanted) for p in around.parameters)
-    return others and not elsewhere and not around.said_elsewhere(wanted)
-
-
-def _no_section(one: Parameter, name: str, part: NodePart) -> Problem:
-    return Problem.at(
-        one.value_place,
-        "error",
-        "nav2-section",
-        f"{one.name} names {name}, but nothing says the plugin of {name}: {part.node} "
-        "stops with an error",
-        f"add {name}: with its plugin: to the parameters of {part.title}, or delete "
-        f"{name} from the list",
-    )

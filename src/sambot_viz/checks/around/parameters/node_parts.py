@@ -6,6 +6,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+import yaml
+
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.parameters.declared import declared_parameters
 from sambot_viz.checks.around.parameters.known import (
@@ -59,8 +61,11 @@ class NodePart:
                 yield parameter, known
 
     def lists(self) -> Iterator[tuple[Parameter, KnownParameter]]:
-        """Yield the lists of parts."""
-        return (each for each in self.known() if each[1].kind in LISTS)
+        """Yield the lists of parts, without those of a wrong type."""
+        for one, known in self.known():
+            is_list = isinstance(one.written, yaml.SequenceNode)
+            if known.kind in LISTS and is_list is (known.kind == "sections"):
+                yield one, known
 
 
 def names_in(parameter: Parameter) -> list[str]:

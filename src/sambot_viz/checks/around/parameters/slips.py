@@ -18,7 +18,7 @@ from sambot_viz.checks.around.files.parameters import (
 )
 from sambot_viz.checks.around.parameters.known import ParameterBlock
 from sambot_viz.checks.around.parameters.node_parts import NodePart, parts_by_node
-from sambot_viz.checks.around.place import moved_right, where
+from sambot_viz.checks.around.place import moved, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.edits import write
@@ -30,6 +30,8 @@ _DECIMAL_COMMA = re.compile(r"-?\d+,\d+")
 _TRUTH = ("true", "false")
 WORDS = frozenset({"rue", "tree", "tue"})
 """Real words that are similar to true or false."""
+_ALL = 10_000
+"""More entries than a level has."""
 _LONG = 4
 _MAP = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
 _MODES = ("trinary", "scale", "raw")
@@ -79,7 +81,7 @@ def _beside(key: yaml.ScalarNode, below: yaml.ScalarNode, shown: str) -> Problem
         f"{below.value} is beside {key.value} "
         f"({where(place_of(key, shown), place)}), not below it: the node that the file "
         "is for stops, or has no parameters",
-        moved_right(place, 2, whole=key.value == _KEY),
+        moved(place, 2, _ALL if key.value == _KEY else 1),
     )
 
 

@@ -30,6 +30,8 @@ from sambot_viz.edits import together, write
 from sambot_viz.errors import Fix, Place, Problem, nearest
 
 _LIKENESS = 0.8
+_OTHERS = "..."
+"""Among the words of a parameter: it also knows others."""
 _LINES = 3
 """Number of lines with equally many items that show the layout of a list."""
 _KINDS = {
@@ -211,17 +213,7 @@ def _value(
     if OPEN.search(said) or type_of(parameter.written) == "list":
         return
     if known.words and said not in known.words:
-        near = nearest(said, known.words, _LIKENESS)
-        words = f"{', '.join(known.words[:-1])} and {known.words[-1]}"
-        follows = "stops with an error" if known.strict else "does not use this value"
-        yield Problem.at(
-            place,
-            "error" if known.strict else "warning",
-            "parameter-value",
-            f"{parameter.name} is {said}, but {part.node} knows only {words}: it "
-            f"{follows}",
-            write(place, said, near) if near else f"write one of {words}",
-        )
+        yield from _word(parameter, known, part)
     elif known.kind == "frame" and said.startswith("/") and len(said) > 1:
         yield Problem.at(
             place,
@@ -233,6 +225,28 @@ def _value(
         )
     elif known.kind in ("number", "integer") and (value := number_of(said)) is not None:
         yield from _range(parameter, known, value, part)
+
+
+def _word(
+    parameter: Parameter, known: KnownParameter, part: NodePart
+) -> Iterator[Problem]:
+    """Report a text that is none of the words that a node knows."""
+    said, place = parameter.fact.value, parameter.value_place
+    words = [word for word in known.words if word != _OTHERS]
+    lower = {word.lower(): word for word in words}
+    near = lower.get(said.lower()) or nearest(said, words, _LIKENESS)
+    if _OTHERS in known.words and (near is None or said in part.sections):
+        return
+    follows = "stops with an error" if known.strict else "does not use this value"
+    allowed = f"{', '.join(words[:-1])} and {words[-1]}"
+    yield Problem.at(
+        place,
+        "error" if known.strict else "warning",
+        "parameter-value",
+        f"{parameter.name} is {said}, but {part.node} knows only {allowed}: it "
+        f"{follows}",
+        write(place, said, near) if near else f"write one of {allowed}",
+    )
 
 
 def _range(

@@ -3,16 +3,27 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.running.system import Endpoint
-from sambot_viz.errors import Place
+from sambot_viz.errors import Place, nearest
 
 DIRECTIONS = ("GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL")
 _TO_ROS, _TO_GZ, _BOTH = DIRECTIONS
+TYPES = ("ros_type_name", "gz_type_name")
+"""The keys for the types of a topic, without which the bridge leaves it out."""
+_KEYS = (*TYPES, "topic_name", "ros_topic_name", "gz_topic_name", "direction")
+_OTHER_KEYS = frozenset(
+    """
+    frame_id gz_rep_type_name gz_req_type_name gz_service_name lazy
+    publish_optical_frame publisher_queue qos_profile ros_service_name
+    ros_type_name service_name subscriber_queue type_name
+    """.split()
+)
+_LIKENESS = 0.75
 _ARROWS = {"[": _TO_ROS, "]": _TO_GZ, "@": _BOTH}
 _BRIDGED = re.compile(r"(/?[\w/]+)@([\w/]+)([\[\]@])([\w.]+)")
 _SCOPED = ("world/", "model/")
@@ -74,9 +85,23 @@ def bare(topic: str) -> str:
     return topic.strip().strip("/")
 
 
+def meant_key(key: str, entry: Mapping[str, Fact]) -> str | None:
+    """Return the key that an unknown key of an entry misspells.
+
+    Args:
+        key: as the file has it.
+        entry: all keys of the entry.
+    """
+    modern = key.replace("ign_", "gz_", 1) if key.startswith("ign_") else key
+    if modern in _KEYS or modern in _OTHER_KEYS:
+        return None
+    return nearest(key, [each for each in _KEYS if each not in entry], _LIKENESS)
+
+
 def entries_of_file(file: YamlFile) -> Iterator[BridgeEntry]:
-    """Yield the entries in a file of a bridge."""
-    for given in file.entries():
+    """Yield the entries in a file of a bridge, with misspelt keys as they are meant."""
+    for written in file.entries():
+        given = {meant_key(key, written) or key: v for key, v in written.items()}
         both = given.get("topic_name")
         ros = given.get("ros_topic_name", both)
         gz = given.get("gz_topic_name", given.get("ign_topic_name", both))

@@ -9,22 +9,13 @@ import yaml
 
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.parameters import pairs, place_of
-from sambot_viz.checks.around.running.bridge_entries import DIRECTIONS
+from sambot_viz.checks.around.running.bridge_entries import DIRECTIONS, TYPES, meant_key
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.topics.bridge_types import counterpart
 from sambot_viz.checks.around.unreadable import parameter_files
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
-_TYPES = ("ros_type_name", "gz_type_name")
-_KEYS = (*_TYPES, "topic_name", "ros_topic_name", "gz_topic_name", "direction")
-_OTHER_KEYS = frozenset(
-    """
-    frame_id gz_rep_type_name gz_req_type_name gz_service_name lazy
-    publish_optical_frame publisher_queue qos_profile ros_service_name
-    ros_type_name service_name subscriber_queue type_name
-    """.split()
-)
 _YAML: Any = yaml
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
@@ -68,10 +59,10 @@ def entries_without_type(around: Surroundings) -> Iterator[Problem]:
         for entry in file.entries():
             topic = entry.get("ros_topic_name", entry.get("gz_topic_name"))
             names = [key.replace("ign_", "gz_", 1) for key in entry]
-            lacking = [key for key in _TYPES if key not in names]
+            lacking = [key for key in TYPES if key not in names]
             if topic is None or not lacking or any(_misspelt_keys(entry)):
                 continue
-            said = entry.get(next((k for k in _TYPES if k not in lacking), ""))
+            said = entry.get(next((k for k in TYPES if k not in lacking), ""))
             better = counterpart(said.value) if said is not None else None
             yield Problem.at(
                 topic.place,
@@ -87,20 +78,16 @@ def entries_without_type(around: Surroundings) -> Iterator[Problem]:
 
 def _misspelt_keys(entry: dict[str, Fact]) -> Iterator[Problem]:
     for key, fact in entry.items():
-        modern = key.replace("ign_", "gz_", 1) if key.startswith("ign_") else key
-        if modern in _KEYS or modern in _OTHER_KEYS:
-            continue
-        free = [known for known in _KEYS if known not in entry]
-        near = nearest(key, free, 0.75)
+        near = meant_key(key, entry)
         if near is not None:
             follows = (
                 "it leaves this topic out"
-                if near in _TYPES
+                if near in TYPES
                 else "it does not read this line"
             )
             yield Problem.at(
                 fact.place,
-                "error" if near in _TYPES else "warning",
+                "error" if near in TYPES else "warning",
                 "bridge-entry",
                 f"the bridge does not know the key {key}: {follows}",
                 write(fact.place, key, near),
@@ -161,7 +148,7 @@ def _is_filled_list(node: yaml.Node) -> bool:
 
 def _is_entry(node: yaml.Node) -> bool:
     keys = {key.value for key, _ in pairs(node)}
-    return not keys.isdisjoint(("ros_topic_name", "gz_topic_name", *_TYPES))
+    return not keys.isdisjoint(("ros_topic_name", "gz_topic_name", *TYPES))
 
 
 def _form(key: yaml.ScalarNode, below: yaml.Node | None) -> tuple[str, str]:
