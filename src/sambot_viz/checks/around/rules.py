@@ -152,10 +152,18 @@ from sambot_viz.checks.around.package_files.own_names import (
     unknown_packages,
 )
 from sambot_viz.checks.around.parameters.files import unreadable_parameters
-from sambot_viz.checks.around.parameters.filter_inputs import inputs_without_config
+from sambot_viz.checks.around.parameters.filter_inputs import (
+    gaps_in_numbers,
+    inputs_without_config,
+    values_without_source,
+)
 from sambot_viz.checks.around.parameters.footprint import (
     footprints,
     unreadable_footprints,
+)
+from sambot_viz.checks.around.parameters.levels import (
+    lines_at_other_levels,
+    values_beside_parameters,
 )
 from sambot_viz.checks.around.parameters.names import (
     unknown_parameters,
@@ -265,6 +273,8 @@ OF_FILES: tuple[Check, ...] = (
     missing_key,
     misspelt_key,
     parameters_of_nobody,
+    values_beside_parameters,
+    lines_at_other_levels,
     texts_for_values,
     incomplete_nodes,
     maps_that_do_not_load,
@@ -335,6 +345,8 @@ OF_FILES: tuple[Check, ...] = (
     shared_frames,
     frames_from_themselves,
     inputs_without_config,
+    values_without_source,
+    gaps_in_numbers,
     ends_of_other_types,
     unknown_bridge_types,
     different_clocks,

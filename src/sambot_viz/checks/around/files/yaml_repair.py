@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 import yaml
@@ -20,6 +20,9 @@ _NO_COLON = re.compile(r"(\s*(?:- +)?)([A-Za-z_][\w.]*) +([^\s:#][^:#]*)")
 _NO_BLANK = re.compile(r"(\s*(?:- +)?)([A-Za-z_][\w.]*):([^\s/].*)")
 _VALUES = re.compile(r"""("[^"]*"|'[^']*')\s+(?=["'])""")
 _KEY = re.compile(r"\s*[\w.]+:(\s|$)")
+_ITEM = re.compile(r"(\s*)- +([A-Za-z_]\w*): +([\w./-]+)")
+_LIST = re.compile(r"(\s*)\w+:\s*\[")
+_WORD = re.compile(r"[A-Za-z_]\w*")
 _BEFORE = 3
 _TWICE = ("local_costmap:", "global_costmap:")
 """The node of a costmap has the name of its namespace."""
@@ -98,6 +101,9 @@ def _candidates(
             yield from change(lines, n)
     for n in near:
         yield from _dash(lines, n)
+    for n in near:
+        yield from _name_in_list(lines, n)
+    yield from _without_key(lines, at)
     yield from _indentation(lines, near)
 
 
@@ -192,6 +198,55 @@ def _dash(lines: list[str], n: int) -> Iterator[_Candidate]:
             [f"{_indent(first)}- {code}"],
             f'there is no "- " before {key}, which begins an entry',
             f"write - {code}",
+        )
+
+
+def _name_in_list(lines: list[str], n: int) -> Iterator[_Candidate]:
+    """Write a key for an item of a list, where the lines beside it are keys."""
+    match = _ITEM.fullmatch(lines[n].partition(" #")[0].rstrip())
+    if match is None:
+        return
+    blanks, key, value = match.groups()
+    around = (lines[n + 1 :], lines[n - 1 :: -1] if n else [])
+    for after in (_first_beside(each, len(blanks)) for each in around):
+        if _indent(after) != blanks or not _KEY.match(after):
+            continue
+        better = f"{value}:" if key == "name" else f"{key}: {value}"
+        yield _Candidate(
+            n,
+            [blanks + better],
+            f"- begins a list, but {_key_in(after)} beside it is a name",
+            f"write {better}",
+        )
+
+
+def _first_beside(lines: Iterable[str], depth: int) -> str:
+    """Return the first line that is no further in; empty without one."""
+    return next((x for x in lines if x.strip() and len(_indent(x)) <= depth), "")
+
+
+def _key_in(line: str) -> str:
+    return line.strip().partition(":")[0]
+
+
+def _without_key(lines: list[str], n: int) -> Iterator[_Candidate]:
+    """Write the name of a group that a list names, above lines that are further in."""
+    above = next((x for x in lines[n - 1 :: -1] if x.strip()), "") if n else ""
+    blanks = _indent(above)
+    is_deeper = len(_indent(lines[n])) > len(blanks) and bool(_KEY.match(above))
+    if not is_deeper or above.rstrip().endswith(":"):
+        return
+    keys = {_key_in(line) for line in lines}
+    lists = (line for line in lines if (m := _LIST.match(line)) and m[1] <= blanks)
+    names = dict.fromkeys(
+        w for line in lists for w in _WORD.findall(line.partition(":")[2])
+    )
+    for name in (name for name in names if name not in keys):
+        yield _Candidate(
+            n,
+            [f"{blanks}{name}:\n{lines[n]}"],
+            f"this line is further in than the one above: the line {name}: is missing",
+            f"add a line {name}: above this one, with {len(blanks)} blanks before it",
         )
 
 

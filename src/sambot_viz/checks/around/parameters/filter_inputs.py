@@ -2,15 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
 
+from sambot_viz.checks.around.files.parameters import Parameter, place_of
 from sambot_viz.checks.around.parameters.known import known_parameters
-from sambot_viz.checks.around.parameters.navigation import filters
+from sambot_viz.checks.around.parameters.navigation import StateFilter, filters
+from sambot_viz.checks.around.parameters.text import instead
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.edits import together, write
 from sambot_viz.errors import Problem
 
+_NUMBERED = re.compile(r"(odom|imu|pose|twist)(\d+)(.*)")
 _USED = {"odom": (6, 7, 11), "imu": (5, 11), "pose": (0, 1, 5), "twist": (6, 7, 11)}
 """Kind of sensor → the values that filters usually use, by their numbers."""
+_GROUPS = (
+    "position",
+    "orientation",
+    "linear velocity",
+    "angular velocity",
+    "linear acceleration",
+)
+"""What the rows of three values of a configuration are."""
+_ROW = 3
+
+
+class _Message(NamedTuple):
+    """The message of a kind of sensor, and the rows of values that it has."""
+
+    name: str
+    rows: frozenset[int]
+
+
+_MESSAGES: Mapping[str, _Message] = {
+    "odom": _Message("nav_msgs/Odometry", frozenset({0, 1, 2, 3})),
+    "imu": _Message("sensor_msgs/Imu", frozenset({1, 3, 4})),
+    "pose": _Message("geometry_msgs/PoseWithCovarianceStamped", frozenset({0, 1})),
+    "twist": _Message("geometry_msgs/TwistWithCovarianceStamped", frozenset({2, 3})),
+}
 
 
 def inputs_without_config(around: Surroundings) -> Iterator[Problem]:
@@ -40,3 +70,96 @@ def inputs_without_config(around: Surroundings) -> Iterator[Problem]:
 
 def _values(used: Sequence[int]) -> list[str]:
     return ["true" if n in used else "false" for n in range(15)]
+
+
+def values_without_source(around: Surroundings) -> Iterator[Problem]:
+    """Report values of a sensor's configuration that its message does not have."""
+    for one in filters(around):
+        for kind, message in _MESSAGES.items():
+            for parameter in one.inputs(kind):
+                config = one.given.get(f"{parameter.name}_config")
+                if config is not None:
+                    yield from _without_source(one, config, kind, message)
+
+
+def _without_source(
+    one: StateFilter, config: Parameter, kind: str, message: _Message
+) -> Iterator[Problem]:
+    written: Any = config.written
+    items = [item for item in written.value] if len(config.values) > 1 else []
+    on = {n for n, item in enumerate(items) if item.value.lower() == "true"}
+    rows = {n // _ROW for n in on}
+    odd = [row for row in sorted(rows - message.rows) if row < len(_GROUPS)]
+    if items and not on:
+        said, is_used = "uses no value", False
+    elif odd:
+        groups = " and ".join(_GROUPS[row] for row in odd)
+        said, is_used = f"uses {groups}", bool(rows & message.rows)
+        said += f", which {message.name} does not have"
+    else:
+        return
+    usual = _values(_USED[kind])
+    first = items[odd[0] * _ROW] if odd else items[0]
+    wrong = [items[n] for n in sorted(on) if n // _ROW in odd]
+    hint, file = "write false for these values", config.place.file
+    off = together(hint, *(instead(item, file, "false", hint) for item in wrong))
+    others = [_GROUPS[row] for row in sorted(message.rows)]
+    yield Problem.at(
+        place_of(first, config.place.file),
+        # What is left is used as it is meant.
+        "info" if is_used else "warning",
+        "ekf-config",
+        f"{config.name} {said}"
+        + (
+            f": {one.node} uses only the others"
+            if is_used
+            else f", and nothing else: {one.node} does not use this sensor at all"
+            if odd
+            else f": {one.node} does not use this sensor at all"
+        ),
+        off
+        if is_used
+        else f"use {', '.join(others[:-1])} or {others[-1]}, such as "
+        f"[{', '.join(usual)}]",
+    )
+
+
+def gaps_in_numbers(around: Surroundings) -> Iterator[Problem]:
+    """Report sensors that a filter does not read, because a lower number is missing."""
+    said = {text for launch in around.launches for text in launch.strings}
+    for one in filters(around):
+        for kind in _MESSAGES:
+            numbers = {int(p.name.removeprefix(kind)) for p in one.inputs(kind)}
+            missing = next(n for n in range(len(numbers) + 1) if n not in numbers)
+            above = sorted(n for n in numbers if n > missing)
+            lower = f"{kind}{missing}"
+            elsewhere = any(p.name == lower for p in around.parameters)
+            if above and not elsewhere and lower not in said:
+                yield _gap(one, kind, missing, above[0])
+
+
+def _gap(one: StateFilter, kind: str, missing: int, number: int) -> Problem:
+    own = [
+        (parameter, match[3])
+        for name, parameter in one.given.items()
+        if (match := _NUMBERED.fullmatch(name))
+        and (match[1], match[2]) == (kind, str(number))
+    ]
+    first = next(parameter for parameter, rest in own if not rest)
+    why = (
+        "counts from 0"
+        if missing == 0
+        else f"reads {kind}0, {kind}1 and so on, up to the first that is missing"
+    )
+    hint = f"write {kind}{missing} for {kind}{number}, in all its lines"
+    return Problem.at(
+        first.place,
+        "warning",
+        "ekf-config",
+        f"{one.node} does not read {kind}{number}, because there is no "
+        f"{kind}{missing}: it {why}",
+        together(
+            hint,
+            *(write(p.place, p.name, f"{kind}{missing}{rest}") for p, rest in own),
+        ),
+    )

@@ -128,6 +128,9 @@ class ParameterBlock:
 
     def __or__(self, other: ParameterBlock) -> ParameterBlock:
         both = {**other.parameters, **self.parameters}
+        for name in self.parameters.keys() & other.parameters.keys():
+            if self.parameters[name].words != other.parameters[name].words:
+                both[name] = replace(both[name], words=())
         return ParameterBlock(both, self.is_whole and other.is_whole)
 
     def find(self, name: str) -> KnownParameter | None:

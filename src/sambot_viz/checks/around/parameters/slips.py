@@ -214,7 +214,9 @@ def _entries(name: str, part: NodePart) -> dict[str, Parameter]:
     before, star, after = name.partition("*")
     for other, parameter in part.given.items():
         if star and other.startswith(before):
-            entry = other.removeprefix(before).partition(".")[0]
+            entry, dot, _ = other.removeprefix(before).partition(".")
+            if not dot:
+                continue
             found.setdefault(f"{before}{entry}{after}", parameter)
         elif not star:
             found.setdefault(name, parameter)
