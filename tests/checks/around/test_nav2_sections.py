@@ -298,6 +298,42 @@ def test_a_motion_model_of_ones_own(tmp_path: Path, other: str) -> None:
     assert _problems(tmp_path) == []
 
 
+TWO = "[inflation_layer, obstacle_layer]"
+"""The layers in the order in which nothing is inflated."""
+
+
+def test_the_inflation_layer_is_the_last(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    file = tmp_path / "nav2_params.yaml"
+    file.write_text(SERVER.replace("[obstacle_layer, inflation_layer]", TWO))
+
+    (problem,) = _problems(tmp_path)
+
+    assert (problem.code, problem.line) == ("costmap-layers", 10)
+    assert edited_files(problem.edits)[str(file)].decode() == SERVER
+
+
+@pytest.mark.parametrize(("other", "severity"), [("0.55", "warning"), ("0.4", "info")])
+def test_an_inflation_that_fills_the_costmap(
+    tmp_path: Path, other: str, severity: str
+) -> None:
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    _, _, local = SERVER.partition("local_costmap:\n")
+    both = f"local_costmap:\n{local}global_costmap:\n{local}".replace(
+        "  local_costmap:\n    ros__parameters:\n      plugins: [obstacle_layer, infl",
+        "  {}_costmap:\n    ros__parameters:\n      width: 3\n      plugins: "
+        "[obstacle_layer, infl",
+    ).format("local", "global")
+    first, _, rest = both.partition("inflation_radius: 0.55")
+    text = f"{first}inflation_radius: 55.0{rest.replace('0.55', other)}"
+    (tmp_path / "nav2_params.yaml").write_text(text)
+
+    (problem,) = _problems(tmp_path)
+
+    assert (problem.code, problem.severity) == ("costmap-layers", severity)
+    assert bool(problem.edits) == (severity == "warning")
+
+
 def test_a_text_for_a_list_is_no_list_of_names(tmp_path: Path) -> None:
     (tmp_path / "package.xml").write_text(MANIFEST)
     text = SERVER.replace("[obstacle_layer, inflation_layer]", '"obstacle_layer, b"')

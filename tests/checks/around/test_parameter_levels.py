@@ -80,7 +80,17 @@ def found(folder: Path, text: str) -> list[Problem]:
     return [p for p in check(folder) if p.code != "package-without-model"]
 
 
-@pytest.mark.parametrize("text", [TELEOP, MUX, SERVER, FILTER])
+GPIO = """\
+gpio_controller:
+  ros__parameters:
+    command_interfaces:
+      flange:
+        - interfaces: [vacuum, light]
+"""
+"""A list with one name, whose value is a list: ROS reads flange.interfaces."""
+
+
+@pytest.mark.parametrize("text", [TELEOP, MUX, SERVER, FILTER, GPIO])
 def test_lines_at_their_levels_have_no_finding(tmp_path: Path, text: str) -> None:
     assert found(tmp_path, text) == []
 

@@ -427,3 +427,44 @@ def test_without_setup_cfg_ros2_run_finds_no_program(package: Path) -> None:
     (problem,) = found(package)
     assert (problem.code, problem.severity) == ("setup-cfg-folder", "error")
     assert "install_scripts=$base/lib/cart_description" in problem.hint
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "cause"),
+    [
+        (
+            "find_packages(exclude=['test'])",
+            "find_packages('src', exclude=['test'])",
+            "looks in src, but cart_description is beside setup.py",
+        ),
+        (
+            "find_packages(exclude=['test'])",
+            "find_packages(where='src', exclude=['test'])",
+            "looks in src, but cart_description is beside setup.py",
+        ),
+        (
+            "['test']",
+            "['test', 'cart*']",
+            "find_packages() leaves out cart_description",
+        ),
+        (
+            "exclude=['test']",
+            "include=['cart']",
+            "find_packages() includes only cart: cart_description is not installed",
+        ),
+        (
+            "resource_index/packages'",
+            "resource_index/package'",
+            "but ROS finds the package by share/ament_index/resource_index/packages",
+        ),
+    ],
+)
+def test_what_is_searched_or_installed_elsewhere(
+    package: Path, right: str, wrong: str, cause: str
+) -> None:
+    edit(package, (SETUP, right, wrong))
+    (problem,) = check(package / MODEL)
+    assert cause in problem.message
+    if problem.edits:
+        text = (package / SETUP).read_text()
+        assert apply_edits(problem.edits, text) == TEXT

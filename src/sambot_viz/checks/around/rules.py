@@ -63,6 +63,7 @@ from sambot_viz.checks.around.launch_files.code import (
     missing_entries,
     unknown_names,
 )
+from sambot_viz.checks.around.launch_files.containers import unknown_containers
 from sambot_viz.checks.around.launch_files.events import (
     handlers_that_wait,
     periods,
@@ -100,6 +101,7 @@ from sambot_viz.checks.around.launch_files.nodes import (
     rviz_without_option,
     state_publishers,
 )
+from sambot_viz.checks.around.launch_files.order import late_declarations
 from sambot_viz.checks.around.launch_files.parameters import launched_parameters
 from sambot_viz.checks.around.launch_files.paths import (
     missing_files,
@@ -160,6 +162,10 @@ from sambot_viz.checks.around.parameters.filter_inputs import (
 from sambot_viz.checks.around.parameters.footprint import (
     footprints,
     unreadable_footprints,
+)
+from sambot_viz.checks.around.parameters.layers import (
+    inflation_before_layers,
+    inflation_too_large,
 )
 from sambot_viz.checks.around.parameters.levels import (
     lines_at_other_levels,
@@ -230,6 +236,7 @@ from sambot_viz.checks.around.unreadable import (
     unreadable_python,
     unreadable_yaml,
     unreadable_yaml_launches,
+    unusable_python,
 )
 from sambot_viz.errors import Problem
 
@@ -283,11 +290,14 @@ OF_FILES: tuple[Check, ...] = (
     unknown_parameters,
     unknown_plugins,
     unknown_sections,
+    inflation_before_layers,
+    inflation_too_large,
     unreadable_footprints,
     unread_sections,
     misspelt_nodes,
     odd_clocks,
     unreadable_python,
+    unusable_python,
     unreadable_launch_files,
     unreadable_yaml_launches,
     empty_launch_files,
@@ -329,6 +339,8 @@ OF_FILES: tuple[Check, ...] = (
     namespaces,
     unused_actions,
     undeclared_arguments,
+    late_declarations,
+    unknown_containers,
     includes_without_argument,
     misplaced_includes,
     unknown_programs,

@@ -51,7 +51,8 @@ def missing_entries(around: Surroundings) -> Iterator[Problem]:
         functions = [n for n in launch.tree.body if isinstance(n, ast.FunctionDef)]
         entry = next((f for f in functions if f.name == _ENTRY), None)
         if entry is not None:
-            if not _returns(entry):
+            lost = any(isinstance(node, ast.Return) for node in launch.tree.body)
+            if not lost and not _returns(entry):
                 yield _without_return(entry, launch)
         elif not _is_bound(_ENTRY, launch.tree):
             near = nearest(_ENTRY, (f.name for f in functions), _LIKENESS)

@@ -22,7 +22,7 @@ _FOLDER = "launch/"
 
 
 @dataclass(frozen=True, slots=True)
-class _Included:
+class IncludedFile:
     """A launch file that another one includes.
 
     Attributes:
@@ -40,13 +40,13 @@ def includes_without_argument(around: Surroundings) -> Iterator[Problem]:
     for launch in around.launches:
         for call in launch.called("IncludeLaunchDescription"):
             table = call.value("launch_arguments")
-            file = _included(around, launch, call)
+            file = included_file(around, launch, call)
             if file is not None and isinstance(table, Table):
                 yield from _undeclared(launch, table, file, every)
 
 
 def _undeclared(
-    launch: LaunchFile, table: Table, file: _Included, every: set[str]
+    launch: LaunchFile, table: Table, file: IncludedFile, every: set[str]
 ) -> Iterator[Problem]:
     given = [pair.key for pair in table.pairs]
     for pair in table.pairs:
@@ -65,7 +65,7 @@ def _undeclared(
         )
 
 
-def _meant(name: str, file: _Included) -> str | None:
+def _meant(name: str, file: IncludedFile) -> str | None:
     """Return the argument that is alike, or that has all words of the name."""
     known = [word for word in file.arguments if "=" not in word]
     words = set(name.split("_"))
@@ -83,21 +83,23 @@ def _declared(around: Surroundings) -> dict[str, Mapping[str, object]]:
     }
 
 
-def _included(around: Surroundings, launch: LaunchFile, call: Call) -> _Included | None:
-    """Return the known facts of the included file."""
+def included_file(
+    around: Surroundings, launch: LaunchFile, call: Call
+) -> IncludedFile | None:
+    """Return the known facts of an included file; None for an unknown one."""
     path = launch.text(call, "launch_description_source", 0) or ""
     package, _, below = path.removeprefix(SHARE).partition("/")
     name = below.rpartition("/")[2]
     known = vocabulary("launch_files").get(f"{package}/{name}")
     if known is not None:
-        return _Included(name, known)
+        return IncludedFile(name, known)
     named = around.named(path)
     own = installed_as(*named) if named is not None else None
     if named is None or own is None:
         return None
     shown = named[0].shown(own)
     declared = _declared(around).get(shown)
-    return None if declared is None else _Included(name, tuple(declared))
+    return None if declared is None else IncludedFile(name, tuple(declared))
 
 
 def misplaced_includes(around: Surroundings) -> Iterator[Problem]:

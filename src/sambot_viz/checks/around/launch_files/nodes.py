@@ -4,21 +4,30 @@ from __future__ import annotations
 
 import ast
 import posixpath
+import re
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.launch_files.code import bound_names
+from sambot_viz.checks.around.launching.actions import RobotText
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
-from sambot_viz.checks.around.launching.python_parts import Call, Pair, Table
+from sambot_viz.checks.around.launching.python_parts import (
+    Call,
+    Pair,
+    PythonValue,
+    Table,
+)
 from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write_attribute
 from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.robot.xml.element import Element
 
 _PUBLISHER, _DESCRIPTION = "robot_state_publisher", "robot_description"
 _JOINT_PUBLISHERS = ("joint_state_publisher", "joint_state_publisher_gui")
 _MODELS = (".urdf", ".xacro", ".sdf")
 _CONDITIONS = frozenset({"IfCondition", "UnlessCondition"})
+_SUBSTITUTION = re.compile(r"\$\([^()]*\)")
 _LIKENESS = 0.8
 
 
@@ -30,6 +39,18 @@ def descriptions(around: Surroundings) -> Iterator[Problem]:
         given = call.listing("parameters")
         tables = [item for item, _ in given.items if isinstance(item, Table)]
         keys = {p.key: p for t in tables for p in t.pairs if isinstance(p.key, str)}
+        plain = next((node for item, node in given.items if _is_model(item)), None)
+        if plain is not None and _DESCRIPTION not in keys:
+            right = f"{{'{_DESCRIPTION}': {ast.unparse(plain)}}}"
+            yield Problem.at(
+                launch.place(plain),
+                "error",
+                "launch-description",
+                "a text in parameters is the path of a file, but this is the text of "
+                f"the model: {_PUBLISHER} stops, and has no {_DESCRIPTION}",
+                rewritten(plain, launch.shown, right),
+            )
+            continue
         if _DESCRIPTION in keys:
             yield from _without_text(keys[_DESCRIPTION], launch)
             continue
@@ -57,11 +78,19 @@ def descriptions(around: Surroundings) -> Iterator[Problem]:
             )
 
 
+def _is_model(item: PythonValue) -> bool:
+    if isinstance(item, RobotText):
+        return True
+    return isinstance(item, str) and item.lstrip().startswith(("<robot", "<?xml"))
+
+
 def described_in_xml(around: Surroundings) -> Iterator[Problem]:
     """Report a robot_state_publisher without a model's text in XML and YAML files."""
     for root in (root for package in around.packages for root in package.frontends):
         for node in root.iter():
             params = {p.get("name") or "": p for p in node.find_all("param")}
+            if node.get("exec") == _PUBLISHER and _DESCRIPTION in params:
+                yield from _without_command(params[_DESCRIPTION])
             if node.get("exec") != _PUBLISHER or {"", _DESCRIPTION} & {*params}:
                 continue
             if node.get("args") is not None:
@@ -82,6 +111,30 @@ def described_in_xml(around: Surroundings) -> Iterator[Problem]:
                 if near and is_xml
                 else hint,
             )
+
+
+def _without_command(param: Element) -> Iterator[Problem]:
+    """Report the command or the path that reads a model, in place of its result."""
+    value = (param.get("value") or "").strip()
+    program, blank, rest = value.partition(" ")
+    path = rest if blank and program == "xacro" else value
+    is_path = path.endswith(_MODELS) and "<" not in path and "command" not in value
+    is_call = blank and program == "xacro"
+    if not is_call and (not is_path or " " in _SUBSTITUTION.sub("", path)):
+        return
+    what = "a command that is not run" if is_call else f"the path {path}"
+    right = f"$(command 'xacro {path.strip()}')"
+    hint = f'write value="{right}"'
+    is_xml = not param.place.file.endswith((".yaml", ".yml"))
+    yield Problem.at(
+        param.place,
+        "error",
+        "launch-description",
+        f"{_DESCRIPTION} is {what}, not the text of the model: {_PUBLISHER} stops",
+        write_attribute(param.place, "value", value, right, hint=hint)
+        if is_xml and "'" not in path
+        else hint,
+    )
 
 
 def _gets_nothing_else(launch: LaunchFile, call: Call) -> bool:

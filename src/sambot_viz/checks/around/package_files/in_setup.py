@@ -14,6 +14,7 @@ from sambot_viz.checks.around.package_files.setup_files import (
     missing_data_files,
     missing_entry_points,
     missing_marks,
+    unfound_modules,
 )
 from sambot_viz.checks.around.package_files.setup_words import (
     loose_texts,
@@ -38,6 +39,7 @@ IN_SETUP: tuple[Callable[[SetupFile, Surroundings], Iterable[Problem]], ...] = (
     missing_data_files,
     missing_marks,
     missing_entry_points,
+    unfound_modules,
     programs_elsewhere,
     misspelt_targets,
 )

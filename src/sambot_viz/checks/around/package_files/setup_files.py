@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import posixpath
 from collections.abc import Iterator
+from fnmatch import fnmatchcase
 
 from sambot_viz.checks.around.launch_files.code import PREDEFINED, bound_names
 from sambot_viz.checks.around.misspelt import is_misspelt
@@ -17,7 +18,7 @@ from sambot_viz.checks.around.setup_file import (
 )
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name, parse_python
-from sambot_viz.edits import write, write_between
+from sambot_viz.edits import source_of, write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
 
 _MARK = "__init__.py"
@@ -57,6 +58,10 @@ def missing_marks(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
     ):
         if mark in installed or around.cmake is not None:
             continue
+        other = _elsewhere(mark, setup)
+        if other is not None:
+            yield other
+            continue
         place, hint = setup.place(given), f"add {line} to data_files"
         begin = Place(place.file, place.line, (place.column or 1) + 1)
         listed_here = (
@@ -73,6 +78,87 @@ def missing_marks(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
             if listed_here
             else hint,
         )
+
+
+def _elsewhere(mark: str, setup: SetupFile) -> Problem | None:
+    """Report the one entry that installs the file of a mark to another folder."""
+    right, name = posixpath.split(mark)
+    entries = [
+        (entry, path)
+        for entry in setup.data_files
+        for _, path in entry.files.items
+        if posixpath.basename(path or "") == name and entry.target
+    ]
+    if len(entries) != 1 or nearest(entries[0][0].target or "", [right], 0.8) is None:
+        return None
+    entry, path = entries[0]
+    folder = entry.node.elts[0] if isinstance(entry.node, ast.Tuple) else entry.node
+    hint = f"write {right}"
+    return Problem.at(
+        setup.place(folder),
+        "warning",
+        "setup-file-missing",
+        f"{path} is installed to {entry.target}, but ROS finds the package by {mark}",
+        rewritten(folder, setup.shown, f"'{right}'", hint)
+        if isinstance(folder, ast.Constant)
+        else hint,
+    )
+
+
+def unfound_modules(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
+    """Report find_packages() that does not find the package of a program."""
+    call = setup.given("packages")
+    is_search = isinstance(call, ast.Call) and call_name(call.func) == "find_packages"
+    if not is_search or not setup.certain or setup.given("package_dir") is not None:
+        return
+    search = next((c for c in setup.values.calls if c.node is call), None)
+    for program in setup.programs if search is not None else ():
+        top = program.module.partition(".")[0]
+        if search is None or not (around.files.folder / top / _MARK).is_file():
+            continue
+        folder = search.given("where", 0)
+        said = setup.values.text(folder)
+        left_out = _patterns(setup, search.given("exclude", 1))
+        only = _patterns(setup, search.given("include", 2)) or ("*",)
+        if folder is not None and said and said.strip("./"):
+            cause = f"looks in {said}, but {top} is beside setup.py"
+            fix = _without(folder, setup)
+        elif any(fnmatchcase(top, pattern) for pattern in left_out):
+            cause = f"leaves out {top}"
+            fix = Fix(f"take {top} out of exclude")
+        elif not any(fnmatchcase(top, pattern) for pattern in only):
+            cause = f"includes only {', '.join(only)}"
+            fix = Fix(f"write {top} into include")
+        else:
+            continue
+        yield Problem.at(
+            setup.place(call),
+            "error",
+            "entry-point-missing",
+            f"find_packages() {cause}: {top} is not installed, and ros2 run stops with "
+            f"{program.name}",
+            fix,
+        )
+        return
+
+
+def _patterns(setup: SetupFile, node: ast.expr | None) -> tuple[str, ...]:
+    return tuple(setup.values.texts(node)) if node is not None else ()
+
+
+def _without(node: ast.expr, setup: SetupFile) -> Fix:
+    """Return the fix that deletes an argument and the comma behind it."""
+    hint = f"delete {ast.unparse(node)} there"
+    source = source_of(setup.shown)
+    if source is None or node.end_lineno != node.lineno:
+        return Fix(hint)
+    line = source.text.split("\n")[node.lineno - 1]
+    before = line[: node.col_offset]
+    begin = len(before) - len("where=") if before.endswith("where=") else len(before)
+    behind = line[node.end_col_offset or 0 :]
+    end = (node.end_col_offset or 0) + len(behind) - len(behind.lstrip(", "))
+    at, to = (Place(setup.shown, node.lineno, n + 1) for n in (begin, end))
+    return write_between(at, to, "", hint)
 
 
 def _of_folder(

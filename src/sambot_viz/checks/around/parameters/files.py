@@ -78,17 +78,26 @@ def _entry(same: list[_Pair]) -> Iterator[Problem]:
 def _mappings(parameter: Parameter, items: list[yaml.Node]) -> Iterator[Problem]:
     """Report names with values in a list, which ROS reads as one list of values."""
     mappings = [item for item in items if isinstance(item, yaml.MappingNode)]
-    if not mappings:
+    values = [[value for _, value in pairs(item)] for item in mappings]
+    # Only behind a scalar ROS takes the next name for a value.
+    mixed = [v for each in values for v in each[:-1] if isinstance(v, yaml.ScalarNode)]
+    if not mixed:
         return
+    types = {type_of(value) for each in values for value in each}
     first = place_of(mappings[0], parameter.place.file)
     fixes = [_named(item, parameter.place.file) for item in mappings]
     hint = fixes[0].hint
     yield Problem.at(
         first,
-        "error",
+        "error" if types - {"string", "list"} else "warning",
         "parameter-type",
         f"{parameter.name} is a list whose items have names and values: the parameters "
-        "of ROS 2 have no such lists, and the node does not start",
+        "of ROS 2 have no such lists, and "
+        + (
+            "the node does not start"
+            if types - {"string", "list"}
+            else "the names become values"
+        ),
         together(hint, *fixes),
     )
 

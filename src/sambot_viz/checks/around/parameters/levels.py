@@ -170,6 +170,9 @@ def _belongs(name: str, below: str, part: NodePart, block: ParameterBlock) -> bo
     if block.find(f"{name}.{below}") is not None:
         return True
     named = {each for one, _ in part.lists() for each in names_in(one)}
+    for known in block.parameters.values():
+        if known.name not in part.given:
+            named.update(*known.own)
     return not dot and key in named and below not in named
 
 

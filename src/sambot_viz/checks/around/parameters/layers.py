@@ -1,0 +1,109 @@
+"""Check the layers of Nav2's costmaps: their order, and the inflation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import yaml
+
+from sambot_viz.checks.around.files.parameters import Parameter, place_of
+from sambot_viz.checks.around.parameters.node_parts import (
+    NodePart,
+    names_in,
+    parts_by_node,
+)
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.rule import number
+from sambot_viz.edits import source_of, write, write_between
+from sambot_viz.errors import Fix, Place, Problem
+
+_INFLATION = "InflationLayer"
+_MARKING = ("StaticLayer", "ObstacleLayer", "VoxelLayer")
+_RADIUS = "inflation_radius"
+_UNITS = (100.0, 1000.0)
+"""Centimetres and millimetres in a metre."""
+_NEAR = 0.01
+
+
+def inflation_before_layers(around: Surroundings) -> Iterator[Problem]:
+    """Report an inflation layer before a layer whose obstacles it would inflate."""
+    for part in (part for parts in parts_by_node(around) for part in parts):
+        listed = next((one for one, k in part.lists() if k.name == "plugins"), None)
+        kinds = [_kind(name, part) for name in names_in(listed)] if listed else []
+        if listed is None or kinds.count(_INFLATION) != 1:
+            continue
+        at, names = kinds.index(_INFLATION), names_in(listed)
+        late = [n for n, kind in enumerate(kinds) if n > at and kind in _MARKING]
+        if not late:
+            continue
+        yield Problem.at(
+            listed.value_place,
+            "warning",
+            "costmap-layers",
+            f"{names[at]} comes before {names[late[-1]]} in {part.node}, and layers "
+            "are applied in this order: what comes after it is not inflated, and the "
+            "robot drives along it",
+            _in_order(listed, at, late[-1]),
+        )
+
+
+def _kind(name: str, part: NodePart) -> str:
+    """Return the class of a layer without its package; empty for an unknown one."""
+    plugin = part.sections.get(name, {}).get("plugin")
+    return plugin.fact.value.rpartition("::")[2] if plugin is not None else ""
+
+
+def _in_order(listed: Parameter, at: int, last: int) -> Fix:
+    """Return the fix that moves an item of a list behind another one."""
+    file, source = listed.place.file, source_of(listed.place.file)
+    written = listed.written
+    items: list[yaml.Node] = written.value
+    names = names_in(listed)
+    hint = f"write {names[at]} behind {names[last]}"
+    is_one_line = written.start_mark.line == written.end_mark.line
+    if source is None or not is_one_line or not getattr(written, "flow_style", False):
+        return Fix(hint)
+    line = source.text.split("\n")[written.start_mark.line]
+    texts = [line[i.start_mark.column : i.end_mark.column] for i in items]
+    texts.insert(last, texts.pop(at))
+    end = written.end_mark
+    behind = Place(file, end.line + 1, end.column + 1)
+    return write_between(place_of(written, file), behind, f"[{', '.join(texts)}]", hint)
+
+
+def inflation_too_large(around: Surroundings) -> Iterator[Problem]:
+    """Report an inflation radius that fills the costmap, probably in another unit."""
+    parts = [part for parts in parts_by_node(around) for part in parts]
+    every = [(p, p.given[_RADIUS]) for p in parts if _RADIUS in p.given and p.section]
+    for part, radius in every:
+        value = radius.fact.number
+        own = next((p for p in parts if p.node == part.node and not p.section), None)
+        sides = (own.given.get(name) for name in ("width", "height")) if own else ()
+        sizes = [s for p in sides if p is not None and (s := p.fact.number)]
+        if value is None or not sizes or value < min(sizes):
+            continue
+        other = next((o for _, o in every if _is_unit(value, o.fact.number)), None)
+        better = "" if other is None else other.fact.value
+        yield Problem.at(
+            radius.value_place,
+            "info" if other is None else "warning",
+            "costmap-layers",
+            f"{_RADIUS} is {number(value)} m, and {part.node} is only "
+            f"{number(min(sizes))} m wide: all of it is near an obstacle"
+            + (
+                ""
+                if other is None
+                else f"; that of {other.node.rpartition('/')[2]} is {better} m "
+                f"({where(other.place, radius.place)})"
+            ),
+            write(radius.value_place, radius.fact.value, better)
+            if other is not None
+            else "write the distance from obstacles in metres, such as 0.55",
+        )
+
+
+def _is_unit(value: float, other: float | None) -> bool:
+    return other is not None and any(
+        abs(value - other * unit) <= _NEAR * value for unit in _UNITS
+    )
