@@ -180,3 +180,12 @@ def test_the_text_of_a_model_is_no_file_of_parameters(tmp_path: Path) -> None:
     found = [p for p in problems(tmp_path, text) if p.code == "launch-description"]
     assert "this is the text of the model" in found[0].message
     assert "[{'robot_description': model}, {" in mended(tmp_path, found[0])
+
+
+def test_a_key_of_yaml_is_mended_at_its_line(tmp_path: Path) -> None:
+    right = "launch:\n- node:\n    pkg: demo\n    exec: talker\n"
+    name = "a.launch.yaml"
+    assert problems(tmp_path, right, name) == []
+    (problem,) = problems(tmp_path, right.replace("exec", "executable"), name)
+    assert problem.line == 4
+    assert mended(tmp_path, problem, name) == right

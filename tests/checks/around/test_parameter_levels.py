@@ -184,3 +184,15 @@ def test_a_sensor_of_which_nothing_is_used(tmp_path: Path) -> None:
     assert "and nothing else: ekf_filter_node does not use this sensor" in (
         problem.message
     )
+
+
+def test_a_missing_comma_of_a_list_is_written_at_its_line(tmp_path: Path) -> None:
+    wrong = FILTER.replace(
+        "false,\n                   true,  true",
+        "false\n" + " " * 19 + "true,  true",
+        1,
+    )
+    assert wrong != FILTER
+    (problem,) = found(tmp_path, wrong)
+    edited = edited_files(problem.edits)[str(tmp_path / "params.yaml")]
+    assert edited.decode() == FILTER

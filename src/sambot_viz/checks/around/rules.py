@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+from sambot_viz.checks.around.compiled import unusable_python
 from sambot_viz.checks.around.control.controllers import (
     options_without_value,
     undeclared_controllers,
@@ -236,7 +237,6 @@ from sambot_viz.checks.around.unreadable import (
     unreadable_python,
     unreadable_yaml,
     unreadable_yaml_launches,
-    unusable_python,
 )
 from sambot_viz.errors import Problem
 

@@ -132,8 +132,9 @@ def _renamed(place: Place, below: str, near: str) -> Fix:
     old, new = PurePosixPath(below), PurePosixPath(near)
     if not place.file.endswith(".py"):
         return write(place, f"/{below}", f"/{near}", hint=f"write {near}")
-    if old.parent != new.parent:
-        return write(place, below, near)
+    whole = write(place, below, near)
+    if whole.edits or old.parent != new.parent:
+        return whole
     return write(place, old.name, new.name, hint=f"write {near}")
 
 

@@ -9,7 +9,13 @@ from functools import partial
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.words import WordKind, WrittenWord, misspelt
-from sambot_viz.edits import rename_attribute, rename_element, write, write_between
+from sambot_viz.edits import (
+    rename_attribute,
+    rename_element,
+    source_of,
+    write,
+    write_between,
+)
 from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.robot.xml.element import Element
 
@@ -118,14 +124,33 @@ def _attributes(element: Element, is_xml: bool) -> Iterator[WrittenWord]:
     if element.parent is not None and element.parent.tag == "include":
         owner = "keep"
     for name, value in given.items():
+        there = place if is_xml else _key_place(place, name)
 
-        def renamed(right: str, name: str = name, value: str = value) -> Fix:
+        def renamed(
+            right: str, name: str = name, value: str = value, there: Place = there
+        ) -> Fix:
             hint = f"write {right}"
             if is_xml:
                 return rename_attribute(place, name, right, value, f'{hint}="{value}"')
-            return write(place, name, right, hint=hint)
+            return write(there, name, right, hint=hint)
 
-        yield WrittenWord(owner, name, given, place, renamed)
+        yield WrittenWord(owner, name, given, there, renamed)
+
+
+def _key_place(place: Place, name: str) -> Place:
+    """Return the place of a key of YAML; that of its mapping where it is not found."""
+    source, column = source_of(place.file), (place.column or 1) - 1
+    lines = source.text.split("\n") if source is not None else []
+    for number, line in enumerate(lines[place.line - 1 :], place.line):
+        text = line.strip()
+        if text and text[0] != "#" and len(line) - len(line.lstrip()) < column:
+            is_first = number == place.line
+            if not is_first:
+                break
+        found = re.match(rf"\s*(?:- +)*({re.escape(name)})\s*:", line)
+        if found is not None and found.start(1) == column:
+            return Place(place.file, number, column + 1)
+    return place
 
 
 def _substitutions(element: Element) -> Iterator[WrittenWord]:

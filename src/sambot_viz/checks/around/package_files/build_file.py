@@ -186,6 +186,7 @@ def folders_as_files(around: Surroundings) -> Iterator[Problem]:
     for command in cmake.commands if cmake is not None else ():
         words = command.files if command.certain else ()
         folders = [w for w in words if _is_folder(w.text, around)]
+        said = next((w.line for w in command.words if w.text == "FILES"), command.line)
         if cmake is not None and folders:
             yield Problem.at(
                 cmake.place(folders[0].line),
@@ -193,7 +194,7 @@ def folders_as_files(around: Surroundings) -> Iterator[Problem]:
                 "install-folder-as-file",
                 f"install(FILES … ) is given {_kinds(folders)}: colcon build stops",
                 write(
-                    cmake.place(command.line),
+                    cmake.place(said),
                     "FILES",
                     "DIRECTORY",
                     hint="write DIRECTORY for FILES",

@@ -28,18 +28,22 @@ _GROUPS = (
 _ROW = 3
 
 
-class _Message(NamedTuple):
+class _SensorMessage(NamedTuple):
     """The message of a kind of sensor, and the rows of values that it has."""
 
     name: str
     rows: frozenset[int]
 
 
-_MESSAGES: Mapping[str, _Message] = {
-    "odom": _Message("nav_msgs/Odometry", frozenset({0, 1, 2, 3})),
-    "imu": _Message("sensor_msgs/Imu", frozenset({1, 3, 4})),
-    "pose": _Message("geometry_msgs/PoseWithCovarianceStamped", frozenset({0, 1})),
-    "twist": _Message("geometry_msgs/TwistWithCovarianceStamped", frozenset({2, 3})),
+_MESSAGES: Mapping[str, _SensorMessage] = {
+    "odom": _SensorMessage("nav_msgs/Odometry", frozenset({0, 1, 2, 3})),
+    "imu": _SensorMessage("sensor_msgs/Imu", frozenset({1, 3, 4})),
+    "pose": _SensorMessage(
+        "geometry_msgs/PoseWithCovarianceStamped", frozenset({0, 1})
+    ),
+    "twist": _SensorMessage(
+        "geometry_msgs/TwistWithCovarianceStamped", frozenset({2, 3})
+    ),
 }
 
 
@@ -83,7 +87,7 @@ def values_without_source(around: Surroundings) -> Iterator[Problem]:
 
 
 def _without_source(
-    one: StateFilter, config: Parameter, kind: str, message: _Message
+    one: StateFilter, config: Parameter, kind: str, message: _SensorMessage
 ) -> Iterator[Problem]:
     written: Any = config.written
     items = [item for item in written.value] if len(config.values) > 1 else []

@@ -10,7 +10,7 @@ from typing import Any, Literal
 import yaml
 
 from sambot_viz.checks.around.files.parameters import flag, place_of
-from sambot_viz.edits import write_between
+from sambot_viz.edits import source_of, write_between
 from sambot_viz.errors import Fix, Place
 
 Type = Literal["number", "integer", "boolean", "string", "list", "none"]
@@ -58,7 +58,14 @@ def fixed(item: yaml.Node, kind: str, file: str) -> Fix:
     text: str = item.value.strip()
     words = text.split()
     if kind == "boolean" and len(words) > 1 and all(map(_TRUTH.fullmatch, words)):
-        return Fix(f"write {', '.join(words)}: a comma is missing")
+        better = ", ".join(words)
+        source, end = source_of(file), item.end_mark
+        behind = Place(file, end.line + 1, end.column + 1)
+        if source is not None:
+            begin = source.offset(place_of(item, file))
+            raw = source.text[begin : source.offset(behind)]
+            right = re.sub(r"(\S)(?=\s)", r"\1,", raw)
+            return instead(item, file, right, f"write {better}: a comma is missing")
     better = converted(text, kind)
     if better is None:
         return Fix(f"write {WANTED[kind]}")

@@ -13,7 +13,8 @@ from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.system import RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
-from sambot_viz.errors import Place, Problem
+from sambot_viz.edits import write_between
+from sambot_viz.errors import Fix, Place, Problem
 
 _ENTRY = (
     "{ros_topic_name: /clock, gz_topic_name: /clock, "
@@ -100,10 +101,15 @@ def clock_not_bridged(around: Surroundings) -> Iterator[Problem]:
     if any("clock" in text for text in texts):
         return
     place: Place | None = None
+    hint: str | Fix
     if bridges:
         package, file = bridges[0]
-        place = Place(file.shown, len((package.text(file.path) or "").splitlines()))
+        text = package.text(file.path) or ""
+        place = Place(file.shown, len(text.splitlines()))
         hint = f"add - {_ENTRY} at the end of the file"
+        end = Place(file.shown, place.line + 1, 1)
+        if text.endswith("\n") and "\n- " in f"\n{text}":
+            hint = write_between(end, end, f"- {_ENTRY}\n", hint)
     else:
         hint = f"add '{_ARGUMENT}' to the arguments of parameter_bridge"
         place = next((p for la in around.launches for p in _bridging(la)), None)
