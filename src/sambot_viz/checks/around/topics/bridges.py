@@ -176,7 +176,8 @@ def scoped_frames(around: Surroundings) -> Iterator[Problem]:
     for link, sensor in sensors(around.robot.gazebo):
         name = sensor.get("name") or ""
         scoped = f"{link}/{name}"
-        if _names_frame(sensor) or any(text.endswith(f"/{name}") for text in said):
+        named = _names_frame(sensor, around.robot.gazebo)
+        if named or any(text.endswith(f"/{name}") for text in said):
             continue
         for topic in topics_of_sensor(sensor):
             brings = (e for e in every if e.reaches_ros and _fits(e, topic))
@@ -201,8 +202,7 @@ _PLACED = frozenset({"LaserScan", "PointCloudPacked"})
 """Messages that are useless without a transform."""
 
 
-def _names_frame(sensor: Element) -> bool:
+def _names_frame(sensor: Element, parts: Sequence[Element]) -> bool:
     """Return whether a sensor names its frame, be it at the wrong place beside it."""
-    around = sensor.parent
-    beside = around.children if around is not None and around.tag == "gazebo" else []
+    beside = (c for part in parts if sensor in part.children for c in part.children)
     return any("frame_id" in element.tag for element in (*sensor.iter(), *beside))
