@@ -149,3 +149,36 @@ def test_a_plugin_of_gazebo_among_those_of_classic_is_not_made_one_of_gazebo(
     found = [one for one in check(file) if one.severity != "info"]
     assert {problem.code for problem in found} == {"gazebo-generation"}
     assert not any(problem.edits for problem in found)
+
+
+def test_exchanged_limits_of_a_camera_are_one_finding(tmp_path: Path) -> None:
+    clip = "<clip><near>{}</near><far>{}</far></clip></camera>"
+    wrong = clip.format("0.2", "0.05")
+    text = URDF.format(SENSOR.replace("</camera>", wrong))
+    file = tmp_path / "r.urdf"
+    file.write_text(text, "utf-8")
+    (problem,) = [p for p in check(file) if p.severity != "info"]
+    assert problem.code == "gazebo-sensor"
+    right = text.replace(wrong, clip.format("0.05", "0.2"))
+    assert apply_edits(problem.edits, text) == right
+
+
+def test_the_joint_of_a_mimic_that_does_not_exist_is_written_by_its_edit(
+    tmp_path: Path,
+) -> None:
+    joint = (
+        '<joint name="{0}_joint" type="revolute"><parent>base</parent>'
+        "<child>{0}</child><axis><xyz>1 0 0</xyz>{1}</axis></joint>"
+    )
+    mimic = '<mimic joint="{}"><multiplier>1</multiplier></mimic>'
+    links = "".join(f'<link name="{n}"/>' for n in ("base", "finger_l", "finger_r"))
+    text = (
+        f'<sdf version="1.11"><model name="r">{links}'
+        f"{joint.format('finger_l', '')}"
+        f"{joint.format('finger_r', mimic.format('finger_left_joint'))}</model></sdf>"
+    )
+    file = tmp_path / "r.sdf"
+    file.write_text(text, "utf-8")
+    (problem,) = (p for p in check(file) if p.code == "mimic-joint-unknown")
+    right = text.replace("finger_left_joint", "finger_l_joint")
+    assert apply_edits(problem.edits, text) == right

@@ -28,6 +28,8 @@ _SYNONYMS = {
 }
 _ANGLES = ("horizontal_fov",)
 """Angles, whose values above a full turn another rule reports."""
+_LOWER = {"far": "near", "max": "min"}
+"""Limit → the lower one beside it."""
 _BELOW_ZERO = re.compile(r"-(?=.*[1-9])[\d.]+")
 _BESIDE = frozenset({"gz_frame_id", "ignition_frame_id"})
 """Elements that Gazebo reads in a sensor, and that the table of SDF lacks."""
@@ -58,16 +60,18 @@ def sensor_words(subject: Subject) -> Iterator[Problem]:
     known = model_type().children["link"].children["sensor"]
     for part in subject.robot.gazebo:
         for sensor in part.find_all("sensor"):
-            stack = [(sensor, known)]
+            stack = [(sensor, known, part)]
             while stack:
-                element, kind = stack.pop()
+                element, kind, above = stack.pop()
                 yield from _misspelt(element, kind, sensor)
-                if subject.robot.language == "urdf":
+                if subject.robot.language == "urdf" and not _is_exchanged(
+                    element, above
+                ):
                     # ROS itself refuses such a word in SDF.
                     yield from _unfit_text(element, kind, sensor)
                 yield from _negative(element, kind, sensor)
                 stack += [
-                    (child, kind.children[child.tag])
+                    (child, kind.children[child.tag], element)
                     for child in element.children
                     if child.tag in kind.children
                 ]
@@ -160,6 +164,15 @@ def _negative(
             "0: a standard deviation is 0 or more",
             write(element.place, text, text[1:]),
         )
+
+
+def _is_exchanged(element: Element, above: Element) -> bool:
+    """Return whether a limit is less than the lower one, which another rule reports."""
+    lower = [e for e in above.children if e.tag == _LOWER.get(element.tag)]
+    try:
+        return any(float(element.text) < float(each.text) for each in lower)
+    except ValueError:
+        return False
 
 
 def _unfit_text(

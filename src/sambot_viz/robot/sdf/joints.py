@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sambot_viz.errors import did_you_mean
+from sambot_viz.edits import write_attribute
+from sambot_viz.errors import Fix, did_you_mean, nearest
 from sambot_viz.geometry import Vector3
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Dynamics, JointType, Limit
@@ -248,9 +249,13 @@ class MotionReader:
         leading = trimmed(mimic.get("axis") or "") or "axis"
         other = self._joints.get(leader)
         near = did_you_mean(leader, self._joints)
-        why = hint = ""
+        why = ""
+        hint: str | Fix = ""
         if leader and other is None:
             why, hint = f"which does not exist ({near})", "correct the name"
+            right = nearest(leader, [n for n in self._joints if n != joint.name])
+            if right is not None:
+                hint = write_attribute(mimic.place, "joint", leader, right)
         elif leader == joint.name and leading == axis.tag:
             why, hint = "which is itself", "name another joint"
         elif other is not None and other.find(leading) is None:

@@ -80,7 +80,9 @@ def unknown_frames(around: Surroundings) -> Iterator[Problem]:
             f"{user} uses the frame {name}, which is not a link of the model: it has "
             f"{near} ({where(links[near].place, fact.place)})",
             write(fact.place, fact.value, near)
+            # Odometry can move only the root.
             if near == nearest(name, links, _MISSPELT)
+            or (not meant and near == around.robot.root)
             else f"write {near}",
         )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from sambot_viz.checks.around.files.gazebo import sensors
+from sambot_viz.checks.around.files.gazebo import SENSOR_FRAMES, sensors
 from sambot_viz.checks.around.gazebo.topics import (
     GazeboTopic,
     doubled_topics,
@@ -203,6 +203,11 @@ _PLACED = frozenset({"LaserScan", "PointCloudPacked"})
 
 
 def _names_frame(sensor: Element, parts: Sequence[Element]) -> bool:
-    """Return whether a sensor names its frame, be it at the wrong place beside it."""
+    """Return whether a sensor names its frame, be it beside it or as Classic does.
+
+    Other rules report those.
+    """
     beside = (c for part in parts if sensor in part.children for c in part.children)
-    return any("frame_id" in element.tag for element in (*sensor.iter(), *beside))
+    classic = any(child.tag in SENSOR_FRAMES for child in sensor.children)
+    named = ("frame_id" in each.tag for each in (*sensor.iter(), *beside))
+    return classic or any(named)
