@@ -90,7 +90,9 @@ def _without_source(
     one: StateFilter, config: Parameter, kind: str, message: _SensorMessage
 ) -> Iterator[Problem]:
     written: Any = config.written
-    items = [item for item in written.value] if len(config.values) > 1 else []
+    # A list of another length has a finding of its own, and its rows are shifted.
+    is_whole = len(config.values) == len(_GROUPS) * _ROW
+    items = list(written.value) if is_whole else []
     on = {n for n, item in enumerate(items) if item.value.lower() == "true"}
     rows = {n // _ROW for n in on}
     odd = [row for row in sorted(rows - message.rows) if row < len(_GROUPS)]
