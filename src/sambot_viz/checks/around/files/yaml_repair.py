@@ -233,7 +233,7 @@ def _without_key(lines: list[str], n: int) -> Iterator[_Candidate]:
     """Write the name of a group that a list names, above lines that are further in."""
     above = next((x for x in lines[n - 1 :: -1] if x.strip()), "") if n else ""
     blanks = _indent(above)
-    is_deeper = len(_indent(lines[n])) > len(blanks) and bool(_KEY.match(above))
+    is_deeper = len(_indent(lines[n])) > len(blanks) + 1 and bool(_KEY.match(above))
     if not is_deeper or above.rstrip().endswith(":"):
         return
     keys = {_key_in(line) for line in lines}
@@ -241,7 +241,7 @@ def _without_key(lines: list[str], n: int) -> Iterator[_Candidate]:
     names = dict.fromkeys(
         w for line in lists for w in _WORD.findall(line.partition(":")[2])
     )
-    for name in (name for name in names if name not in keys):
+    for name in (name for name in names if name not in {*keys, "true", "false"}):
         yield _Candidate(
             n,
             [f"{blanks}{name}:\n{lines[n]}"],
