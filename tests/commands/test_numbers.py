@@ -35,7 +35,7 @@ OTHERS = {
     "A", "B", "JOINT", "NAME", "SOURCE", "TARGET", "HOST", "TOPIC", "KINDS",
     None,
     "FROM:=TO", "FORMAT", "LESSON", "STEP", "TRACK", "zenoh://ROUTER:7447/NAME",
-    "CODE", "FOLDER", "NAME=ADDRESS", "TEXT",
+    "CODE", "FOLDER", "[NAME=]ADDRESS", "TEXT",
 }  # fmt: skip
 """Placeholders of what is no number."""
 
