@@ -93,6 +93,7 @@ Visualization Manager:
     Current:
       Class: rviz_default_plugins/Orbit
       Distance: 10
+      Frame: <Fixed Frame>
       Pitch: 2.5
 """
 """Values that RViz takes."""

@@ -36,6 +36,7 @@ _KINDS: dict[str, type[Property]] = {
     "policy": PolicyProperty,
 }
 _NOTHING = ("", "~", "null")
+_OF_COVARIANCE = "Frame"
 _PARTS = ("X", "Y", "Z", "W")
 """The keys of vectors and quaternions."""
 
@@ -52,8 +53,9 @@ def unusable_values(around: Surroundings) -> Iterator[Problem]:
             # The value of a property with others below it is beside them.
             is_own = key == "Value" and not one.above
             known = _property(one.key if is_own else key)
-            # A policy is below a topic; some displays have others of the same name.
-            unknown = known is None or (one.above and isinstance(known, PolicyProperty))
+            # These are below another; some displays have others of the same name.
+            nested = key == _OF_COVARIANCE or isinstance(known, PolicyProperty)
+            unknown = known is None or (one.above and nested)
             if known is not None and not unknown and fact.value not in _NOTHING:
                 yield from _read(known, Scalar(fact.value), fact)
 
