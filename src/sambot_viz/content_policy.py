@@ -44,9 +44,8 @@ def strict_policy(kind: PageKind) -> str:
     Args:
         kind: kind of the page.
     """
-    refused = ["default-src", "base-uri", "form-action"]
-    if kind not in _FILES:
-        refused.append("frame-ancestors")
+    framed = () if kind in _FILES else ("frame-ancestors",)
+    refused = ("default-src", "base-uri", "form-action", *framed)
     rules = {**dict.fromkeys(refused, "'none'"), **_MAY_LOAD[kind]}
     return "; ".join(f"{name} {sources}" for name, sources in rules.items())
 

@@ -86,7 +86,6 @@ def test_what_a_macro_computes_has_no_edits(tmp_path: Path) -> None:
     ("code", "old", "new"),
     [
         ("footprint-size", "", ""),
-        ("frame-unknown", "", ""),
         ("sdf-joint-to-frame", "", ""),
         ("launch-world-name", 'name="room"', 'name="my room"'),
     ],

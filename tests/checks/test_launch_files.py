@@ -117,7 +117,6 @@ def test_of_two_names_of_the_package_one_is_wrong(checked: Checked) -> None:
         ("cart_description_moveit_config", ""),
         ("cart_controller", ""),
         ("cart_bringup2", ""),
-        ("cart_funmap", ""),
     ],
 )
 def test_another_package_of_the_robot_is_no_misspelt_one(
@@ -135,3 +134,20 @@ def test_another_package_of_the_robot_is_no_misspelt_one(
         "    return LaunchDescription([])\n"
     )
     assert checked(launch, "cart_description") == []
+
+
+@pytest.mark.parametrize(("file", "found"), [("launch", 1), ("maps", 0)])
+def test_a_package_whose_files_are_not_here_is_another_one(
+    file: str, found: int, checked: Checked
+) -> None:
+    launch = (
+        "import os\n"
+        "from ament_index_python.packages import get_package_share_directory\n"
+        "from launch import LaunchDescription\n"
+        "from launch.actions import IncludeLaunchDescription\n\n"
+        "def generate_launch_description():\n"
+        f'    path = os.path.join(get_package_share_directory("cart_maps"), "{file}")\n'
+        "    return LaunchDescription([IncludeLaunchDescription(path)])\n"
+    )
+    codes = [problem.code for problem in checked(launch, "cart_pkg")]
+    assert codes.count("launch-package-unknown") == found

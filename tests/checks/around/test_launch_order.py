@@ -51,8 +51,8 @@ from launch_ros.actions import Node
 
 def generate_launch_description():
     ld = LaunchDescription()
-    ld.add_action(DeclareLaunchArgument("name", default_value="a"))
     name = LaunchConfiguration("name")
+    ld.add_action(DeclareLaunchArgument("name", default_value="a"))
     ld.add_action(Node(package="demo", executable="b", name=name))
     return ld
 """

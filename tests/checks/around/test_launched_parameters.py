@@ -18,17 +18,17 @@ from launch_ros.actions import Node
 def generate_launch_description():
     return LaunchDescription([
         Node(
-            package="joint_state_publisher",
-            executable="joint_state_publisher",
-            parameters=[{"rate": 30, "use_mimic_tags": True, "x": 1}],
+            package="joy",
+            executable="joy_node",
+            parameters=[{"device_id": 30, "sticky_buttons": True, "x": 1}],
         ),
     ])
 """
 XML = """\
 <launch>
-  <node pkg="joint_state_publisher" exec="joint_state_publisher">
-    <param name="delta" value="0.5"/>
-    <param name="rate" value="$(env RATE)"/>
+  <node pkg="joy" exec="joy_node">
+    <param name="deadzone" value="0.5"/>
+    <param name="device_id" value="$(env RATE)"/>
   </node>
 </launch>
 """
@@ -38,11 +38,29 @@ CODES = {"parameter-type", "parameter-unknown"}
 @pytest.mark.parametrize(
     ("name", "text", "right", "wrong", "cause"),
     [
-        ("a.launch.py", PYTHON, '"rate": 30', '"rate": 30.0', "needs a whole number"),
+        (
+            "a.launch.py",
+            PYTHON,
+            '"device_id": 30',
+            '"device_id": 30.0',
+            "needs a whole number",
+        ),
         ("a.launch.py", PYTHON, "True", "'true'", "needs true or false"),
-        ("a.launch.py", PYTHON, '"rate"', '"rates"', "no parameter rates, but rate"),
+        (
+            "a.launch.py",
+            PYTHON,
+            '"device_id"',
+            '"device_ids"',
+            "no parameter device_ids, but device_id",
+        ),
         ("a.launch.xml", XML, '"0.5"', '"0.5 m"', "needs a number with a decimal"),
-        ("a.launch.xml", XML, '"delta"', '"delt"', "no parameter delt, but delta"),
+        (
+            "a.launch.xml",
+            XML,
+            '"deadzone"',
+            '"deadzon"',
+            "no parameter deadzon, but deadzone",
+        ),
     ],
 )
 def test_a_parameter_of_another_name_or_type(

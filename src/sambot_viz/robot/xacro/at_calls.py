@@ -213,6 +213,8 @@ class _Move:
         if "$" in _new(self.problem):
             return None
         named = [call for call in calls if self._is_the_call(call)]
+        if not self.problem.edits and self._names_several(calls):
+            return None
         for call in named or calls:
             given = [value.text for value in call.values.values()]
             values = {
@@ -225,6 +227,14 @@ class _Move:
             if _new(made) != _new(self.problem) and self._is_used(_new(made)):
                 return made
         return None
+
+    def _names_several(self, calls: Sequence[CallText]) -> bool:
+        """Return whether the hint is about the parts of more than one call."""
+        hint, said = self.problem.hint, list[set[str]]()
+        for call in calls:
+            said.append({v.text for v in call.values.values() if v.text in hint})
+        common = set.intersection(*said) if said else set[str]()
+        return sum(bool(words - common) for words in said) > 1
 
     def _with_parameters(self, values: dict[str, str]) -> Problem:
         if not values:

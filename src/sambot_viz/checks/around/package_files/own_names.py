@@ -7,6 +7,7 @@ import difflib
 import re
 from collections.abc import Iterator
 
+from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.running.known import known_nodes
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -113,6 +114,7 @@ def unknown_packages(around: Surroundings) -> Iterator[Problem]:
                     text not in others
                     and is_meant(text, package.name)
                     and not package.knows(text)
+                    and not _has_others(text, package, around)
                 ):
                     yield Problem.at(
                         place,
@@ -176,12 +178,16 @@ def _alike(name: str, package: str) -> bool:
     if words[-1].rstrip("0123456789") in _PARTS and words[-1] != others[-1]:
         # Two packages of one robot; the other one may be elsewhere.
         return False
-    if words[:-1] == others[:-1]:
-        # Only the last word tells packages of one robot apart.
-        return _ratio(words[-1], others[-1]) > 0.5
-    shorter = min(len(words), len(others))
-    return words[:shorter] == others[:shorter] or _ratio(name, package) > 0.8
+    ratio = difflib.SequenceMatcher(None, name, package).ratio()
+    return ratio > 0.8 or (words[0] == others[0] and ratio > 0.5)
 
 
-def _ratio(text: str, other: str) -> float:
-    return difflib.SequenceMatcher(None, text, other).ratio()
+def _has_others(name: str, package: Package, around: Surroundings) -> bool:
+    """Return whether launch files open a file of a package that this one lacks."""
+    start = f"{SHARE}{name}/"
+    python = (fact for launch in package.launches for fact in launch.paths)
+    said = (f.value.partition(start)[2] for f in (*python, *around.running.paths))
+    return any(
+        below and not any(f"{path}/".startswith(f"{below}/") for path in package.paths)
+        for below in said
+    )
