@@ -23,6 +23,9 @@ GOOD = """<robot name="r">
 </robot>
 """
 
+SHOWN = "document.querySelector('.model .cm-content')?.innerText.includes('hull')"
+"""The editor is empty at first, and has its text then."""
+
 
 @pytest.fixture
 def model(tmp_path: Path) -> Path:
@@ -54,7 +57,7 @@ def test_a_mistake_is_marked_as_it_is_typed_and_its_fix_mends_the_text(
     asked = "codemirror.js"
     assert not any(asked in url for url in page.requests)
     user.click("tab", "Model")
-    viewer.wait_for("document.querySelector('.model .cm-line')")
+    viewer.wait_for(SHOWN)
     assert sum(asked in url for url in page.requests) == 1
 
     # The cursor goes behind link="hull; a letter is taken away.
@@ -102,7 +105,7 @@ def test_what_another_program_has_changed_too_is_chosen_and_undone(
     viewer = open_viewer(viz.url)
     user, page = viewer.user, viewer.page
     user.click("tab", "Model")
-    viewer.wait_for("document.querySelector('.model .cm-line')")
+    viewer.wait_for(SHOWN)
     focus = "document.querySelector('.model .cm-content').focus()"
     page.evaluate(focus)
     user.keys("Control+Home", "ArrowDown", "End")
@@ -159,7 +162,7 @@ def test_a_number_is_moved_by_keys_and_written_so_that_the_editor_undoes_it(
 
         user.click("tab", "Model")
         user.find("slider", "reach")
-        viewer.wait_for("document.querySelector('.model .cm-line')")
+        viewer.wait_for(SHOWN)
         page.evaluate(
             "document.querySelector('[type=range][aria-label=reach]').focus()"
         )

@@ -233,8 +233,7 @@ class _Move:
         hint, said = self.problem.hint, list[set[str]]()
         for call in calls:
             said.append({v.text for v in call.values.values() if v.text in hint})
-        common = set.intersection(*said) if said else set[str]()
-        return sum(bool(words - common) for words in said) > 1
+        return len({frozenset(words) for words in said if words}) > 1
 
     def _with_parameters(self, values: dict[str, str]) -> Problem:
         if not values:
