@@ -14,18 +14,6 @@ PACKAGES = Path(__file__).parents[2] / "data" / "around"
 Copied = Callable[[str], Path]
 
 
-@pytest.fixture
-def tmp_path(tmp_path: Path) -> Path:
-    """A folder of the test alone, with empty ones around it.
-
-    Packages are looked for up to three folders above that of a model: those of all
-    other tests would be found too, which takes longer than the tests themselves.
-    """
-    inner = tmp_path / "a" / "b" / "c"
-    inner.mkdir(parents=True)
-    return inner
-
-
 @pytest.fixture(scope="session")
 def xacro_memory() -> XacroMemory:
     return XacroMemory()
