@@ -186,6 +186,14 @@ def test_a_sensor_of_which_nothing_is_used(tmp_path: Path) -> None:
     )
 
 
+def test_numbers_for_truths_are_no_unused_sensor(tmp_path: Path) -> None:
+    first, _, imu = FILTER.partition("imu0_config")
+    rows, behind, rest = imu.partition("imu0_differential")
+    rows = rows.replace("true", "1").replace("false", "0")
+    (problem,) = found(tmp_path, f"{first}imu0_config{rows}{behind}{rest}")
+    assert (problem.code, problem.severity) == ("parameter-type", "error")
+
+
 def test_a_missing_comma_of_a_list_is_written_at_its_line(tmp_path: Path) -> None:
     wrong = FILTER.replace(
         "false,\n                   true,  true",

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from sambot_viz.checks.around.files.parameters import Parameter, place_of
 from sambot_viz.checks.around.parameters.known import known_parameters
 from sambot_viz.checks.around.parameters.navigation import StateFilter, filters
-from sambot_viz.checks.around.parameters.text import instead
+from sambot_viz.checks.around.parameters.text import instead, type_of
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import together, write
 from sambot_viz.errors import Problem
@@ -96,7 +96,7 @@ def _without_source(
     on = {n for n, item in enumerate(items) if item.value.lower() == "true"}
     rows = {n // _ROW for n in on}
     odd = [row for row in sorted(rows - message.rows) if row < len(_GROUPS)]
-    if items and not on:
+    if items and not on and all(type_of(item) == "boolean" for item in items):
         said, is_used = "uses no value", False
     elif odd:
         groups = " and ".join(_GROUPS[row] for row in odd)
