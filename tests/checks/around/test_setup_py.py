@@ -249,9 +249,18 @@ def test_a_right_package_gives_nothing(package: Path) -> None:
             (SETUP, "find_packages(exclude=['test'])", "['cart']"),
             21,
             "packages (line 9) does not list cart_description, so it is not installed",
-            "add 'cart_description' to packages",
+            "write ['cart_description']",
             (SETUP, "['cart']", "['cart_description']"),
             id="packages",
+        ),
+        pytest.param(
+            "entry-point-missing",
+            (SETUP, "find_packages(exclude=['test'])", "[]"),
+            21,
+            "packages (line 9) does not list cart_description, so it is not installed",
+            "add 'cart_description' to packages",
+            (SETUP, "=[],", "=['cart_description'],"),
+            id="no packages",
         ),
         pytest.param(
             "setup-cfg-folder",
@@ -409,6 +418,17 @@ def test_what_a_letter_makes_of_setup_py_is_mended(
     assert problem.hint.startswith(hint)
     text = (package / SETUP).read_text()
     assert apply_edits(problem.edits, text) == TEXT
+
+
+@pytest.mark.parametrize("wrong", ["[]", "['cart']"])
+def test_a_package_that_packages_lacks_is_written_into_the_list(
+    wrong: str, package: Path
+) -> None:
+    right = "['cart_description']"
+    edit(package, (SETUP, "find_packages(exclude=['test'])", wrong))
+    text = (package / SETUP).read_text()
+    (problem,) = found(package)
+    assert apply_edits(problem.edits, text) == text.replace(wrong, right)
 
 
 def test_a_folder_that_find_packages_does_not_find_is_not_installed(

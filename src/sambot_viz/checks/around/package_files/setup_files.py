@@ -23,6 +23,7 @@ from sambot_viz.errors import Fix, Place, Problem, nearest
 
 _MARK = "__init__.py"
 """The file that makes a folder a Python package."""
+_ADD = "add "
 
 
 def missing_data_files(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
@@ -221,7 +222,9 @@ def missing_entry_points(setup: SetupFile, around: Surroundings) -> Iterator[Pro
             start = f"write {program.name} = "
             place = setup.place(program.node)
             right = hint.removeprefix(start)
-            fix = write(place, said, right, hint=hint) if right != hint else hint
+            fix = write(place, said, right, hint=hint) if right != hint else Fix(hint)
+            if hint.startswith(_ADD):
+                fix = _listed(hint, setup, around)
             yield Problem.at(
                 place,
                 "error",
@@ -259,9 +262,25 @@ def _fault(
         at = where(setup.place(setup.given("packages")), setup.shown)
         return (
             f"packages ({at}) does not list {above}, so it is not installed",
-            f"add '{above}' to packages",
+            f"{_ADD}'{above}' to packages",
         )
     return _no_function(program, file, around)
+
+
+def _listed(hint: str, setup: SetupFile, around: Surroundings) -> Fix:
+    """Return the fix that lists a package, and none without a folder."""
+    node = setup.given("packages")
+    if not isinstance(node, ast.List) or node.lineno != node.end_lineno:
+        return Fix(hint)
+    texts = [(item, setup.values.text(item)) for item in node.elts]
+    kept = [
+        ast.unparse(item)
+        for item, text in texts
+        if text is None or (around.files.folder / text.replace(".", "/")).is_dir()
+    ]
+    added = hint.removeprefix(_ADD).removesuffix(" to packages")
+    hint = hint if len(kept) == len(texts) else ""
+    return rewritten(node, setup.shown, f"[{', '.join([*kept, added])}]", hint)
 
 
 def _is_found(setup: SetupFile) -> bool:
