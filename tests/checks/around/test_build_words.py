@@ -194,11 +194,19 @@ def test_a_name_that_only_package_xml_has_is_the_wrong_one(tmp_path: Path) -> No
     assert undone(package, problem, MANIFEST) == []
 
 
-def test_an_element_that_is_misspelt_is_not_missing_too(tmp_path: Path) -> None:
-    right, wrong = "<version>0.0.1</version>", "<versoin>0.0.1</versoin>"
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("<version>0.0.1</version>", "<versoin>0.0.1</versoin>"),
+        (TF.strip(), TF.strip().replace("exec_depend", "exec_depends")),
+    ],
+)
+def test_an_element_that_is_misspelt_is_not_missing_too(
+    tmp_path: Path, right: str, wrong: str
+) -> None:
     package = package_with(tmp_path / "robot", MANIFEST, right, wrong)
     (problem,) = check(package)
-    assert "has no <versoin>" in problem.message
+    assert f"has no {wrong.partition('>')[0]}>" in problem.message
     assert undone(package, problem, MANIFEST) == []
 
 

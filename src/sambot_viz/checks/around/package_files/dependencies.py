@@ -110,6 +110,9 @@ def missing_dependencies(around: Surroundings) -> Iterator[Problem]:
     known = _started() | others
     listed_here = named & started.keys() & known
     near = {*_meant(around).values()}
+    # A dependency may be in an element with a misspelt name.
+    root = around.manifest
+    near |= {child.text.strip() for child in root.children} if root else set()
     missing = sorted(started.keys() & known - _brought(around, named) - near)
     if missing and len(listed_here) + (len(missing) == 1) > 1:
         here = _place(depends[-1], around)
