@@ -29,6 +29,8 @@ controller_server:
     FollowPath:
       plugin: dwb_core::DWBLocalPlanner
       sim_time: 1.7
+      acc_lim_x: 2.5
+      decel_lim_theta: -3.2
       critics: [GoalAlign, PathDist]
       GoalAlign.scale: 24.0
 local_costmap:
@@ -61,6 +63,7 @@ velocity_smoother:
   ros__parameters:
     feedback: OPEN_LOOP
     max_velocity: [0.26, 0.0, 1.0]
+    max_decel: [-2.5, 0.0, -3.0]
 controller_manager:
   ros__parameters:
     update_rate: 100
@@ -156,6 +159,9 @@ def test_right_parameters_have_no_finding(tmp_path: Path) -> None:
         ("warning", "link_frame: base_link", "link_frame: /base_link", "a slash"),
         ("warning", "sensor_frame: base_scan", "sensor_frame: /base_scan", "a slash"),
         ("info", "frequency: 30.0", "frequency: 0.033", "usually at least 1"),
+        ("warning", "theta: -3.2", "theta: 3.2", "needs negative numbers"),
+        ("warning", "lim_x: 2.5", "lim_x: -2.5", "needs positive numbers"),
+        ("error", "[-2.5, 0.0, -3.0]", "[2.5, 0.0, 3.0]", "it stops with an error"),
         ("warning", "  sim_time", "  sim_tme", "no parameter sim_tme"),
         ("warning", "x.max_velocity", "x.max_velocty", "no parameter max_velocty"),
         (

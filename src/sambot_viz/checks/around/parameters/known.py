@@ -28,6 +28,7 @@ _DISTRIBUTIONS: tuple[str, ...] = (
 _LIKENESS = 0.8
 _NUMBER = re.compile(r"\d+")
 _RANGE = re.compile(r"(>?)([-+.\d]*?)\.\.([-+.\d]*)(!?)")
+_SIGNS = {"positive": (0.0, math.inf), "negative": (-math.inf, 0.0)}
 LISTS = frozenset({"section", "sections", "sources"})
 """The types of parameters that name parts of the node."""
 
@@ -81,6 +82,7 @@ class KnownParameter:
         low: the lowest usual number.
         high: the highest usual number.
         above: a number must be above `low`.
+        signed: a number out of this range has the wrong sign.
         strict: the node stops with another number or word.
         words: the only allowed words; empty for any. With "..." in them, others are
             allowed too, except misspelt ones.
@@ -100,6 +102,7 @@ class KnownParameter:
     low: float = -math.inf
     high: float = math.inf
     above: bool = False
+    signed: bool = False
     strict: bool = False
     words: tuple[str, ...] = ()
     base: str = ""
@@ -298,6 +301,10 @@ def _known(name: str, kind: str, rest: list[str]) -> KnownParameter:
             above, low, high, strict = interval.groups()
             known = replace(known, above=bool(above), strict=bool(strict))
             known = replace(known, low=float(low or "-inf"), high=float(high or "inf"))
+        elif (sign := word.rstrip("!")) in _SIGNS:
+            low, high = _SIGNS[sign]
+            known = replace(known, low=low, high=high, signed=True)
+            known = replace(known, strict=word.endswith("!"))
         elif word.startswith("<="):
             known = replace(known, at_most=word[2:])
         elif word.startswith(("@", "->")):

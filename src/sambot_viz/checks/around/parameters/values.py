@@ -11,6 +11,7 @@ import yaml
 from sambot_viz.checks.around.files.parameters import Parameter, place_of
 from sambot_viz.checks.around.parameters.known import KnownParameter
 from sambot_viz.checks.around.parameters.node_parts import NodePart, parts_by_node
+from sambot_viz.checks.around.parameters.ranges import out_of_range, wrong_signs
 from sambot_viz.checks.around.parameters.text import (
     OPEN,
     REPLACED,
@@ -20,12 +21,10 @@ from sambot_viz.checks.around.parameters.text import (
     fixed,
     instead,
     is_open,
-    number_of,
     type_of,
 )
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.rule import number
 from sambot_viz.edits import together, write
 from sambot_viz.errors import Fix, Place, Problem, nearest
 
@@ -210,7 +209,11 @@ def _value(
 ) -> Iterator[Problem]:
     """Report a value of the right type that makes no sense."""
     said, place = parameter.fact.value, parameter.value_place
-    if OPEN.search(said) or type_of(parameter.written) == "list":
+    if OPEN.search(said):
+        return
+    if known.signed:
+        yield from wrong_signs(parameter, known, part)
+    if type_of(parameter.written) == "list":
         return
     if known.words and said not in known.words:
         yield from _word(parameter, known, part)
@@ -223,8 +226,8 @@ def _value(
             "a slash: it never gets a transform",
             write(place, said, said[1:]),
         )
-    elif known.kind in ("number", "integer") and (value := number_of(said)) is not None:
-        yield from _range(parameter, known, value, part)
+    elif known.kind in ("number", "integer") and not known.signed:
+        yield from out_of_range(parameter, known, part)
 
 
 def _word(
@@ -247,52 +250,3 @@ def _word(
         f"{follows}",
         write(place, said, near) if near else f"write one of {allowed}",
     )
-
-
-def _range(
-    parameter: Parameter, known: KnownParameter, value: float, part: NodePart
-) -> Iterator[Problem]:
-    """Report a number out of its range, or above the parameter that limits it."""
-    least = number(known.low)
-    low = f"more than {least}" if known.above else f"at least {least}"
-    high, other = f"at most {number(known.high)}", part.given.get(known.at_most)
-    if value > known.high or value < known.low or (known.above and value == known.low):
-        wanted = high if value > known.high else low
-        yield Problem.at(
-            parameter.value_place,
-            "error" if known.strict else "info",
-            "parameter-value",
-            f"{parameter.name} is {parameter.fact.value}, but "
-            + (
-                f"{part.node} takes only {wanted}: it stops with an error"
-                if known.strict
-                else f"it is usually {wanted}"
-            ),
-            _in_range(parameter, known, value) or f"write {wanted}",
-        )
-    elif other is not None and value > _number(other, value):
-        here, there = parameter.value_place, other.value_place
-        one, two = parameter.fact.value, other.fact.value
-        hint = f"write {two} here and {one} there, or correct one of them"
-        yield Problem.at(
-            here,
-            "warning",
-            "parameter-value",
-            f"{parameter.name} is {one}, which is more than {other.name}, {two} "
-            f"({where(other.place, here)})",
-            together(hint, write(here, one, two), write(there, two, one)),
-        )
-
-
-def _number(parameter: Parameter, otherwise: float) -> float:
-    found = parameter.fact.number
-    return otherwise if found is None else found
-
-
-def _in_range(parameter: Parameter, known: KnownParameter, value: float) -> Fix | None:
-    """Return the frequency for a period, if the number is one."""
-    if "frequency" not in parameter.name or not 0 < value < known.low:
-        return None
-    right, said = f"{float(f'{1 / value:.2g}'):.1f}", parameter.fact.value
-    hint = f"write {right}, if {said} is the time between two [s]"
-    return write(parameter.value_place, said, right, hint=hint)
