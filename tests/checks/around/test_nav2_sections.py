@@ -213,7 +213,10 @@ def test_what_nav2_reads_is_not_reported(
 SERVER = """\
 controller_server:
   ros__parameters:
-    controller_plugins: ["FollowPath"]
+    controller_plugins: [FollowPath]
+    goal_checker_plugins: [general_goal_checker]
+    general_goal_checker:
+      plugin: nav2_controller::SimpleGoalChecker
     FollowPath:
       plugin: nav2_mppi_controller::MPPIController
       motion_model: DiffDrive
@@ -238,11 +241,29 @@ local_costmap:
         (
             "    FollowPath:",
             "    followPath:",
-            4,
+            7,
             "controller_plugins names FollowPath (line 3), but this section is called",
         ),
-        ("DiffDrive", "Diffdrive", 6, "knows only DiffDrive, Omni and Ackermann"),
-        ("DiffDrive", "omni", 6, "knows only DiffDrive, Omni and Ackermann"),
+        (
+            "[FollowPath]",
+            "[followPath]",
+            3,
+            "controller_plugins names followPath, but the section is called FollowPath",
+        ),
+        (
+            "[general_goal_checker]",
+            "[goal_checker]",
+            4,
+            "names goal_checker, but the section is called general_goal_checker",
+        ),
+        (
+            "    general_goal_checker:",
+            "    goal_checker:",
+            5,
+            "names general_goal_checker (line 4), but this section is called",
+        ),
+        ("DiffDrive", "Diffdrive", 9, "knows only DiffDrive, Omni and Ackermann"),
+        ("DiffDrive", "omni", 9, "knows only DiffDrive, Omni and Ackermann"),
         (
             """\
       inflation_layer:
@@ -254,19 +275,19 @@ local_costmap:
           plugin: nav2_costmap_2d::InflationLayer
           inflation_radius: 0.55
 """,
-            16,
-            "plugins names inflation_layer (line 10), but this section is inside",
+            19,
+            "plugins names inflation_layer (line 13), but this section is inside",
         ),
         (
             "        laser:\n          data",
             "      laser:\n        data",
-            14,
-            "names laser (line 13), but this section is beside obstacle_layer",
+            17,
+            "names laser (line 16), but this section is beside obstacle_layer",
         ),
         (
             "      inflation_layer:\n",
             "",
-            16,
+            19,
             "obstacle_layer has a second plugin here: the line inflation_layer: is",
         ),
     ],
@@ -309,7 +330,7 @@ def test_the_inflation_layer_is_the_last(tmp_path: Path) -> None:
 
     (problem,) = _problems(tmp_path)
 
-    assert (problem.code, problem.line) == ("costmap-layers", 10)
+    assert (problem.code, problem.line) == ("costmap-layers", 13)
     assert edited_files(problem.edits)[str(file)].decode() == SERVER
 
 

@@ -87,7 +87,7 @@ def _other_section(
     place = next(iter(inner.values())).place
     place = place if key is None else place_of(key, one.place.file)
     follows = f"{part.node} stops with an error"
-    is_usual = any(name in names for names in known.own)
+    is_usual = _rank(name, known) < _rank(near, known)
     is_asked = known.base != _LAYER or is_one_slip(near, name)
     if key is not None and is_usual and is_asked and not around.said_elsewhere(near):
         return Problem.at(
@@ -107,6 +107,12 @@ def _other_section(
         + (follows if known.base else "what is below it is not used"),
         write(at, name, near),
     )
+
+
+def _rank(name: str, known: KnownParameter) -> int:
+    """Return which of the usual lists has a name, 0 for the first one."""
+    ranks = (rank for rank, names in enumerate(known.own) if name in names)
+    return next(ranks, len(known.own))
 
 
 def _other_level(
