@@ -355,6 +355,62 @@ def test_an_inflation_that_fills_the_costmap(
     assert bool(problem.edits) == (severity == "warning")
 
 
+LOCAL = f"""\
+      global_frame: odom
+      rolling_window: true
+      width: 3
+      footprint: "[[0.2, 0.15], [0.2, -0.15], [-0.2, -0.15], [-0.2, 0.15]]"
+{SERVER.partition("ros__parameters:")[2].partition("    ros__parameters:")[2][1:]}"""
+GLOBAL = """\
+global_costmap:
+  global_costmap:
+    ros__parameters:
+      plugins: [inflation_layer]
+      robot_radius: 0.3
+      inflation_layer: {plugin: nav2_costmap_2d::InflationLayer, inflation_radius: 0.3}
+"""
+COSTMAPS = f"local_costmap:\n  local_costmap:\n    ros__parameters:\n{LOCAL}{GLOBAL}"
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "line", "cause"),
+    [
+        ("radius: 0.55", "radius: 0.1", 16, "inscribed radius of the footprint (line"),
+        ("radius: 0.3}", "radius: 0.2}", 22, "but the robot_radius (line 21) is 0.3"),
+    ],
+)
+def test_a_costmap_that_misses_obstacles(
+    tmp_path: Path, right: str, wrong: str, line: int, cause: str
+) -> None:
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    file, text = tmp_path / "nav2_params.yaml", COSTMAPS
+    file.write_text(text)
+    assert _problems(tmp_path) == []
+    assert right in text
+    file.write_text(text.replace(right, wrong, 1))
+
+    (problem,) = _problems(tmp_path)
+
+    assert (problem.code, problem.severity) == ("costmap-layers", "warning")
+    assert (problem.line, cause in problem.message) == (line, True), problem
+    file.write_bytes(edited_files(problem.edits)[str(file)])
+    assert _problems(tmp_path) == []
+
+
+@pytest.mark.parametrize(
+    ("right", "other"),
+    [
+        ("radius: 0.55", "radius: 0.1\n        enabled: false"),
+        ("radius: 0.3}", "radius: 0.2, enabled: false}"),
+    ],
+)
+def test_a_costmap_that_is_meant_so(tmp_path: Path, right: str, other: str) -> None:
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    assert right in COSTMAPS
+    (tmp_path / "nav2_params.yaml").write_text(COSTMAPS.replace(right, other, 1))
+    assert _problems(tmp_path) == []
+
+
 def test_a_text_for_a_list_is_no_list_of_names(tmp_path: Path) -> None:
     (tmp_path / "package.xml").write_text(MANIFEST)
     text = SERVER.replace("[obstacle_layer, inflation_layer]", '"obstacle_layer, b"')

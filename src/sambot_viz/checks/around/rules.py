@@ -167,6 +167,7 @@ from sambot_viz.checks.around.parameters.footprint import (
 from sambot_viz.checks.around.parameters.layers import (
     inflation_before_layers,
     inflation_too_large,
+    inflation_too_small,
 )
 from sambot_viz.checks.around.parameters.levels import (
     lines_at_other_levels,
@@ -292,6 +293,7 @@ OF_FILES: tuple[Check, ...] = (
     unknown_sections,
     inflation_before_layers,
     inflation_too_large,
+    inflation_too_small,
     unreadable_footprints,
     unread_sections,
     misspelt_nodes,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import yaml
 
@@ -12,14 +13,14 @@ from sambot_viz import limits
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile
 from sambot_viz.checks.around.parameters.navigation import is_open
 from sambot_viz.checks.around.parameters.node_parts import parts_by_node
+from sambot_viz.checks.around.parameters.polygon import NUMBER, distance, polygon_of
 from sambot_viz.checks.around.parameters.text import type_of
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.clues import severity
 from sambot_viz.errors import Problem
 
-_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _GAP = r"[\s,]*"
-_CORNER = rf"\[{_GAP}{_NUMBER}[\s,]+{_NUMBER}{_GAP}\]{_GAP}"
+_CORNER = rf"\[{_GAP}{NUMBER}[\s,]+{NUMBER}{_GAP}\]{_GAP}"
 _CORNERS = re.compile(rf"{_GAP}\[{_GAP}(?:{_CORNER}){{3,}}\]{_GAP}")
 _WORD = re.compile(r"[^\s,\[\]]+")
 _NONE = frozenset({"", "[]"})
@@ -75,7 +76,7 @@ def _cause(text: str) -> str:
 
 
 def _odd(words: Sequence[str]) -> str | None:
-    return next((w for w in words if not re.fullmatch(_NUMBER, w)), None)
+    return next((w for w in words if not re.fullmatch(NUMBER, w)), None)
 
 
 def _hint(words: Sequence[str]) -> str:
@@ -126,12 +127,12 @@ def _given(file: YamlFile) -> Iterator[tuple[str, str, Parameter]]:
     """Yield each costmap with its base frame, and its footprint or radius."""
     for node in file.nodes:
         given = file.of(node)
-        base, said = given.get("robot_base_frame"), _said(given)
+        base, said = given.get("robot_base_frame"), counted_footprint(given)
         if said is not None and node.endswith("costmap"):
             yield node, base.fact.value if base else "base_link", said
 
 
-def _said(given: Mapping[str, Parameter]) -> Parameter | None:
+def counted_footprint(given: Mapping[str, Parameter]) -> Parameter | None:
     """Return the parameter that counts: a footprint overrides a radius.
 
     None without a parameter, or when Nav2 cannot read it.
@@ -142,3 +143,16 @@ def _said(given: Mapping[str, Parameter]) -> Parameter | None:
     if footprint is not None and re.search(r"\d", footprint.fact.value):
         return footprint
     return given.get("robot_radius")
+
+
+def inscribed_radius(given: Mapping[str, Parameter]) -> float | None:
+    """Return the distance from the base to the nearest side of a footprint [m].
+
+    None without a footprint, or when it is unreadable.
+    """
+    said = counted_footprint(given)
+    if said is None or said.fact.number is not None:
+        return said.fact.number if said is not None else None
+    polygon = polygon_of(said.fact.value) or []
+    sides = pairwise([*polygon, *polygon[:1]])
+    return min((distance((0.0, 0.0), a, b) for a, b in sides), default=None)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from sambot_viz.checks.around.files.parameters import Parameter
+from sambot_viz.checks.around.parameters.polygon import distance, polygon_of
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.rule import number
 from sambot_viz.errors import Problem
@@ -15,7 +15,6 @@ from sambot_viz.geometry import PlainPose, Vector2, Vector3
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Box, Cylinder, MeshFile, Shape, Sphere
 
-_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _SMALLEST_GAP = 0.03
 _SHARE = 0.15
 _TOO_LARGE, _TOO_LARGE_WITH_ARM = 2.0, 5.0
@@ -58,7 +57,7 @@ def compare(robot: Robot, frame: str, said: Parameter) -> Iterator[Problem]:
     if not reach.points:
         return
     radius = said.fact.number
-    polygon = _polygon(said.fact.value) if radius is None else None
+    polygon = polygon_of(said.fact.value) if radius is None else None
     if polygon is not None:
         outside = [_outside(polygon, point) for point in reach.points]
         size = max(math.hypot(*corner) for corner in polygon)
@@ -125,27 +124,15 @@ def _outward(value: float, rounded: Callable[[float], int]) -> float:
     return rounded(round(value, 3) * 100) / 100
 
 
-def _polygon(text: str) -> Points | None:
-    """Return the corners of a footprint [m]; None when they are unreadable."""
-    numbers = [float(n) for n in _NUMBER.findall(text)[:2000]]
-    if len(numbers) < 6 or len(numbers) % 2 or not all(map(math.isfinite, numbers)):
-        return None
-    return list(zip(numbers[::2], numbers[1::2], strict=True))
-
-
 def _outside(polygon: Points, point: Vector2) -> float:
     """Return the distance of a point from a polygon [m]; 0 inside."""
-    distance, inside = math.inf, False
+    away, inside = math.inf, False
     for a, b in zip(polygon, [*polygon[1:], polygon[0]], strict=True):
-        edge, to = (b[0] - a[0], b[1] - a[1]), (point[0] - a[0], point[1] - a[1])
-        length = edge[0] ** 2 + edge[1] ** 2
-        share = (to[0] * edge[0] + to[1] * edge[1]) / (length or 1.0)
-        share = min(max(share, 0.0), 1.0)
-        away = math.hypot(to[0] - share * edge[0], to[1] - share * edge[1])
-        distance = min(distance, away)
+        away = min(away, distance(point, a, b))
         if (a[1] > point[1]) != (b[1] > point[1]):
-            inside ^= point[0] < a[0] + edge[0] * to[1] / edge[1]
-    return 0.0 if inside else distance
+            share = (point[1] - a[1]) / (b[1] - a[1])
+            inside ^= point[0] < a[0] + (b[0] - a[0]) * share
+    return 0.0 if inside else away
 
 
 def _reach(robot: Robot, frame: str, *, visuals: bool) -> _Reach:

@@ -7,7 +7,12 @@ from collections.abc import Iterator
 import yaml
 
 from sambot_viz.checks.around.files.parameters import Parameter, place_of
+from sambot_viz.checks.around.parameters.footprint import (
+    counted_footprint,
+    inscribed_radius,
+)
 from sambot_viz.checks.around.parameters.node_parts import (
+    Given,
     NodePart,
     names_in,
     parts_by_node,
@@ -101,6 +106,40 @@ def inflation_too_large(around: Surroundings) -> Iterator[Problem]:
             if other is not None
             else "write the distance from obstacles in metres, such as 0.55",
         )
+
+
+def inflation_too_small(around: Surroundings) -> Iterator[Problem]:
+    """Report an inflation radius that is smaller than half the width of the robot."""
+    every = parts_by_node(around)
+    radii = [p.given[_RADIUS] for parts in every for p in parts if _RADIUS in p.given]
+    for own, *layers in every:
+        half, said = inscribed_radius(own.given), counted_footprint(own.given)
+        if half is None or said is None:
+            continue
+        used = {name for one, _ in own.lists() for name in names_in(one)}
+        given = [layer.given for layer in layers if layer.section in used]
+        what = "" if said.fact.number else "inscribed radius of the "
+        for radius in [g[_RADIUS] for g in given if _is_below(half, g)]:
+            others = (r for r in radii if (r.fact.number or 0.0) >= half)
+            other, place = next(others, None), radius.value_place
+            yield Problem.at(
+                place,
+                "warning",
+                "costmap-layers",
+                f"{_RADIUS} of {own.node} is {radius.fact.value} m, but the {what}"
+                f"{said.name} ({where(said.place, place)}) is {number(half)} m: paths "
+                "come too near to obstacles, and Nav2 logs an error",
+                write(place, radius.fact.value, other.fact.value)
+                if other is not None
+                else f"write at least {number(half)}",
+            )
+
+
+def _is_below(half: float, layer: Given) -> bool:
+    """Return whether a layer inflates by less than a length [m]."""
+    radius = layer[_RADIUS].fact.number if _RADIUS in layer else None
+    is_off = "enabled" in layer and layer["enabled"].flag is False
+    return radius is not None and radius < half and not is_off
 
 
 def _is_unit(value: float, other: float | None) -> bool:
