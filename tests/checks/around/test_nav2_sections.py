@@ -370,11 +370,14 @@ global_costmap:
       inflation_layer: {plugin: nav2_costmap_2d::InflationLayer, inflation_radius: 0.3}
 """
 COSTMAPS = f"local_costmap:\n  local_costmap:\n    ros__parameters:\n{LOCAL}{GLOBAL}"
+ROLLING = "      rolling_window: true\n"
 
 
 @pytest.mark.parametrize(
     ("right", "wrong", "line", "cause"),
     [
+        ("window: true", "window: false", 5, "rolling_window of local_costmap is fal"),
+        (f"odom\n{ROLLING}", "odom\n", 4, "is missing, which means false"),
         ("radius: 0.55", "radius: 0.1", 16, "inscribed radius of the footprint (line"),
         ("radius: 0.3}", "radius: 0.2}", 22, "but the robot_radius (line 21) is 0.3"),
     ],
@@ -400,6 +403,9 @@ def test_a_costmap_that_misses_obstacles(
 @pytest.mark.parametrize(
     ("right", "other"),
     [
+        (ROLLING, "      rolling_window: false\n      origin_x: -1.5\n"),
+        (f"odom\n{ROLLING}", "map\n"),
+        (ROLLING, "      rolling_window: $(var rolling)\n"),
         ("radius: 0.55", "radius: 0.1\n        enabled: false"),
         ("radius: 0.3}", "radius: 0.2, enabled: false}"),
     ],

@@ -168,6 +168,7 @@ from sambot_viz.checks.around.parameters.layers import (
     inflation_before_layers,
     inflation_too_large,
     inflation_too_small,
+    still_costmaps,
 )
 from sambot_viz.checks.around.parameters.levels import (
     lines_at_other_levels,
@@ -294,6 +295,7 @@ OF_FILES: tuple[Check, ...] = (
     inflation_before_layers,
     inflation_too_large,
     inflation_too_small,
+    still_costmaps,
     unreadable_footprints,
     unread_sections,
     misspelt_nodes,

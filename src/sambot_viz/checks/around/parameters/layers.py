@@ -11,6 +11,7 @@ from sambot_viz.checks.around.parameters.footprint import (
     counted_footprint,
     inscribed_radius,
 )
+from sambot_viz.checks.around.parameters.navigation import bare_frame
 from sambot_viz.checks.around.parameters.node_parts import (
     Given,
     NodePart,
@@ -26,6 +27,8 @@ from sambot_viz.errors import Fix, Place, Problem
 _INFLATION = "InflationLayer"
 _MARKING = ("StaticLayer", "ObstacleLayer", "VoxelLayer")
 _RADIUS = "inflation_radius"
+_ROLLING = "rolling_window"
+_ORIGINS = ("origin_x", "origin_y")
 _UNITS = (100.0, 1000.0)
 """Centimetres and millimetres in a metre."""
 _NEAR = 0.01
@@ -140,6 +143,49 @@ def _is_below(half: float, layer: Given) -> bool:
     radius = layer[_RADIUS].fact.number if _RADIUS in layer else None
     is_off = "enabled" in layer and layer["enabled"].flag is False
     return radius is not None and radius < half and not is_off
+
+
+def still_costmaps(around: Surroundings) -> Iterator[Problem]:
+    """Report a local costmap in the odometry frame that does not follow the robot."""
+    told = {p.node.rpartition("/")[2] for p in around.parameters if p.name == _ROLLING}
+    for part in (parts[0] for parts in parts_by_node(around)):
+        frame, rolling = part.given.get("global_frame"), part.given.get(_ROLLING)
+        layers = [name for one, _ in part.lists() for name in names_in(one)]
+        kinds = {_kind(name, part) for name in layers}
+        is_odom = frame is not None and bare_frame(frame.fact.value) == "odom"
+        is_moved = any(name in part.given for name in _ORIGINS)
+        if part.node != "local_costmap" or not is_odom or is_moved or not kinds:
+            continue
+        if not kinds.isdisjoint({"StaticLayer", ""}) or frame is None:
+            # A map, or a layer of which nothing is known, may stay where it is.
+            continue
+        is_whole = "width" in part.given and part.node not in told
+        if rolling is None and is_whole:
+            at = Place(frame.place.file, frame.place.line, 1)
+            said, place = "is missing, which means false", frame.place
+            fix = _line_before(at, f"{_ROLLING}: true")
+        elif rolling is not None and rolling.flag is False:
+            said, place = f"is {rolling.fact.value}", rolling.value_place
+            fix = write(place, rolling.fact.value, "true")
+        else:
+            continue
+        yield Problem.at(
+            place,
+            "warning",
+            "costmap-layers",
+            f"{_ROLLING} of {part.node} {said}, so that its corner stays where the "
+            "robot starts: the robot is outside at once, and no obstacle is seen there",
+            fix,
+        )
+
+
+def _line_before(at: Place, added: str) -> Fix:
+    """Return the fix that adds a line before another one, at its level."""
+    source, hint = source_of(at.file), f"add a line {added}"
+    line = source.text.split("\n")[at.line - 1] if source is not None else ""
+    blanks = line[: len(line) - len(line.lstrip())]
+    is_alone = line.lstrip().startswith("global_frame")
+    return write_between(at, at, f"{blanks}{added}\n", hint) if is_alone else Fix(hint)
 
 
 def _is_unit(value: float, other: float | None) -> bool:
