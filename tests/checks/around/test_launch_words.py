@@ -109,6 +109,14 @@ CASES = [
     (PYTHON, "('a', 'b')", "['a', 'b']", "remappings are a list of tuples"),
     (PYTHON, "[('a', 'b')]", "('a', 'b')", "remappings are a list of tuples"),
     (PYTHON, "[{'use_sim_time': True}]", "{'use_sim_time': True}", "this is a dict"),
+    (PYTHON, "time': True", "time', True", "use_sim_time gets no value"),
+    (
+        PYTHON,
+        "'view': 'true', 'rviz': config",
+        "'view', 'true', 'rviz', config",
+        "a comma makes this a set of values, not a dict: view gets no value",
+    ),
+    (PYTHON, "('a', 'b')", "{'a', 'b'}", "remappings are a list of tuples"),
     (PYTHON, "generate_launch_description", "generate", "this one is called generate"),
     (PYTHON, "        Node(", "        'Node'(", "Node is in quotation marks"),
     (

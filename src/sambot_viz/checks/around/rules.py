@@ -56,6 +56,7 @@ from sambot_viz.checks.around.launch_files.calls import (
     calls_without_argument,
     files_without_folder,
     paths_from_the_root,
+    sets_for_dicts,
 )
 from sambot_viz.checks.around.launch_files.choices import misspelt_truths, other_words
 from sambot_viz.checks.around.launch_files.code import (
@@ -319,6 +320,7 @@ OF_FILES: tuple[Check, ...] = (
     unknown_elements_of_launch,
     arguments_that_are_no_texts,
     calls_without_argument,
+    sets_for_dicts,
     paths_from_the_root,
     files_without_folder,
     arguments_without_list,

@@ -13,7 +13,7 @@ from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.edits import write_between
+from sambot_viz.edits import together, write_between
 from sambot_viz.errors import Fix, Place, Problem
 
 _FILES = {"RosGzBridge": "config_file", "GzServer": "world_sdf_file"}
@@ -34,6 +34,8 @@ _NEEDED = {
     "UnlessCondition": "predicate_expression",
 }
 """Call → its required argument."""
+_DICTS = ("parameters", "launch_arguments")
+"""Arguments that have dicts, by themselves or in a list."""
 _ENDINGS = (".yaml", ".yml", ".sdf", ".world", ".rviz")
 
 
@@ -113,6 +115,47 @@ def calls_without_argument(around: Surroundings) -> Iterator[Problem]:
                 f"{call.name} has no {name}, which it needs: ros2 launch stops with it",
                 f"write {name} into its brackets",
             )
+
+
+def sets_for_dicts(around: Surroundings) -> Iterator[Problem]:
+    """Report commas between the names and the values of parameters."""
+    for launch, text in around.launch_texts():
+        lines, found = text.splitlines(), dict[int, ast.Set]()
+        for call in launch.calls:
+            given = [node for name in _DICTS if (node := call.given(name))]
+            for node in (step for each in given for step in ast.walk(each)):
+                inner = launch.origin(node) if isinstance(node, ast.Name) else node
+                if isinstance(inner, ast.Set):
+                    found[id(inner)] = inner
+        for node in found.values():
+            yield from _set_for_dict(node, launch, lines)
+
+
+def _set_for_dict(
+    node: ast.Set, launch: LaunchFile, lines: list[str]
+) -> Iterator[Problem]:
+    keys, values = node.elts[::2], node.elts[1::2]
+    texts = [key.value for key in keys if isinstance(key, ast.Constant)]
+    names = [text for text in texts if isinstance(text, str)]
+    if not len(keys) == len(values) == len(names):
+        return
+    pairs = [f"'{name}': …" for name in names]
+    hint = f"write {', '.join(pairs)} with a colon"
+    fixes: list[Fix] = []
+    for key in keys:
+        line, column = key.end_lineno or 1, key.end_col_offset or 0
+        after = lines[line - 1].encode()[column:].decode()
+        begin, end = (Place(launch.shown, line, column + n) for n in (1, 2))
+        if after[:1] == ",":
+            fixes.append(write_between(begin, end, ":", hint))
+    yield Problem.at(
+        launch.place(node),
+        "error",
+        "launch-code",
+        f"a comma makes this a set of values, not a dict: {names[0]} gets no value, "
+        "and ros2 launch stops or takes the set for the path of a file",
+        together(hint, *fixes) if len(fixes) == len(keys) else Fix(hint),
+    )
 
 
 def paths_from_the_root(around: Surroundings) -> Iterator[Problem]:

@@ -97,7 +97,7 @@ def remappings_without_pairs(around: Surroundings) -> Iterator[Problem]:
                 yield _no_pair(launch, given, f"[{ast.unparse(given)}]")
                 continue
             for node in parts:
-                if isinstance(node, ast.List) and len(node.elts) == 2:
+                if isinstance(node, (ast.List, ast.Set)) and len(node.elts) == 2:
                     inner = ", ".join(ast.unparse(part) for part in node.elts)
                     yield _no_pair(launch, node, f"({inner})")
                 elif isinstance(node, (ast.List, ast.Constant, ast.Dict)):
