@@ -149,6 +149,41 @@ def test_what_launch_takes_otherwise(
     assert apply_edits(problem.edits, launch.read_text()) == good
 
 
+RIGHT = '["ros2", "control", "load_controller", "a"]'
+
+
+@pytest.mark.parametrize(
+    ("wrong", "cause", "better"),
+    [
+        ("['ros2 control load_controller a']", "one word, the name of", None),
+        ("[['ros2 control load_controller a']]", "one word, the name of", None),
+        ("'ros2 control load_controller a'", "each of its letters is a word", None),
+        ("'ls -l', shell=True", "each of its letters is", "['ls -l'], shell=True"),
+        ("['echo $HOME']", "without a shell, so 'echo $HOME' is one word", ""),
+        ("[['ros2 control ', 'load ', model]]", "so 'ros2 control load'", ""),
+    ],
+)
+def test_a_command_has_its_words_in_a_list(
+    package: Path, wrong: str, cause: str, better: str | None
+) -> None:
+    launch = package / "launch" / "all.launch.py"
+    launch.write_text(PYTHON.replace(RIGHT, wrong))
+    (problem,) = check(package)
+    assert (problem.severity, cause in problem.message) == ("error", True)
+    right = RIGHT.replace('"', "'") if better is None else better or wrong
+    fixed = apply_edits(problem.edits, launch.read_text())
+    assert fixed == PYTHON.replace(RIGHT, right)
+
+
+@pytest.mark.parametrize(
+    "right", ["['ls -l'], shell=True", "['/opt/My Robot/run']", "[model, 'a b']"]
+)
+def test_a_command_may_have_blanks(package: Path, right: str) -> None:
+    launch = package / "launch" / "all.launch.py"
+    launch.write_text(PYTHON.replace(RIGHT, right))
+    assert check(package) == []
+
+
 def test_a_handler_of_what_never_starts(package: Path) -> None:
     launch = package / "launch" / "all.launch.py"
     launch.write_text(PYTHON.replace(f"{' ' * 12}spawn,\n", ""))

@@ -608,13 +608,13 @@ MISTAKES = [
             (
                 LAUNCH,
                 'cmd=["gazebo", "-s", "libgazebo_ros_factory.so"]',
-                'cmd=["gz sim"]',
+                'cmd=["gz", "sim"]',
             ),
             (LAUNCH, 'package="gazebo_ros"', 'package="ros_gz_sim"'),
             (LAUNCH, 'executable="spawn_entity.py"', 'executable="create"'),
         ),
         (MODEL, '<plugin filename="libgazebo_ros_imu_sensor.so" name="imu_plugin">'),
-        (LAUNCH, 'ExecuteProcess(cmd=["gz sim"]),'),
+        (LAUNCH, 'ExecuteProcess(cmd=["gz", "sim"]),'),
         'write filename="gz-sim-imu-system" name="gz::sim::systems::Imu"',
         fixed=(
             (

@@ -8,11 +8,12 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
+from sambot_viz.checks.around.launching.python_parts import Call
 from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import together, write, write_attribute, write_between
-from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.xml.element import Element
 
 _CODE = "launch-code"
@@ -21,6 +22,7 @@ _OPTION = re.compile(r"-{1,2}[A-Za-z][\w-]*\s+\S.*")
 _NUMBERS = re.compile(r"(-?[\d.]+\s+){3,}.*")
 _ASSIGNED = re.compile(r"\w+:=.*")
 _COMMAND = re.compile(r"\$\(command\s+(['\"]?)(\w+)\$\(")
+_OF_SHELL = frozenset("\"'|&;<>*$`")
 _LIKENESS = 0.85
 _FOLDERS = frozenset({"FindPackageShare", "ThisLaunchFileDir"})
 _PATHS = frozenset({"PathJoinSubstitution", "join"})
@@ -31,6 +33,7 @@ def several_words(around: Surroundings) -> Iterator[Problem]:
     for launch in around.launches:
         for call in launch.calls:
             whole = call.given("shell") is not None
+            yield from () if whole else _no_program(launch, call)
             for argument in _WORDS:
                 option = ""
                 for item, node in call.listing(argument).items:
@@ -38,6 +41,31 @@ def several_words(around: Surroundings) -> Iterator[Problem]:
                     is_value, option = option[:1] == "-", launch.values.said(item) or ""
                     if isinstance(node, ast.Constant) and not whole:
                         yield from _no_word(node, launch, argument, is_value)
+
+
+def _no_program(launch: LaunchFile, call: Call) -> Iterator[Problem]:
+    """Report a command in one text, which launch takes for a program's name."""
+    first = next((node for _, node in call.listing("cmd").items), None)
+    if first is None or first is call.given("cmd"):
+        return
+    parts = first.elts if isinstance(first, ast.List) else [first]
+    known = [part.value for part in parts if isinstance(part, ast.Constant)]
+    text = "".join(part for part in known if isinstance(part, str))
+    words = text.split()
+    if len(words) < 2 or text[0] == "/":
+        return
+    right = ", ".join(repr(word) for word in words)
+    plain = len(known) == len(parts) and not set(text) & _OF_SHELL
+    yield Problem.at(
+        launch.place(first),
+        "error",
+        _CODE,
+        f"launch runs cmd without a shell, so '{text.strip()}' is one word, the name "
+        "of a program that does not exist",
+        rewritten(first, launch.shown, right)
+        if plain
+        else Fix("write each word in a text of its own, or shell=True"),
+    )
 
 
 def _no_word(

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.launching.actions import Action, Expression, Joined
-from sambot_viz.checks.around.launching.launch_file import LaunchFile
+from sambot_viz.checks.around.launching.launch_file import NODES, LaunchFile
 from sambot_viz.checks.around.launching.python_parts import Call, Listing, Table
 from sambot_viz.checks.around.place import bracketed, rewritten
 from sambot_viz.checks.around.running.bridge_entries import bare
@@ -29,8 +29,11 @@ _LISTS = {
     "parameters": _STOPS,
     "remappings": _STOPS,
     "arguments": "the program gets each of its letters as an argument",
+    "cmd": "each of its letters is a word of the command",
 }
-"""Argument of a node that is a list → the effect of another kind."""
+"""Argument of a node or a program that is a list → the effect of another kind."""
+_WORDS = frozenset({"arguments", "cmd"})
+_PROGRAMS = ("ExecuteProcess", "ExecuteLocal")
 _SHORT = 3
 """Length up to which a name may be one letter from many others."""
 _TRUTH = frozenset({"true", "false", "1", "0"})
@@ -46,19 +49,22 @@ _IN_PYTHON = {
 def arguments_without_list(around: Surroundings) -> Iterator[Problem]:
     """Report parameters, remappings and arguments that are not lists."""
     for launch in around.launches:
-        for call in launch.called():
+        for call in launch.called(*NODES, *_PROGRAMS):
             for argument, follows in _LISTS.items():
                 given = call.given(argument)
                 what = None if given is None else _no_list(call, argument)
                 if given is None or what is None:
                     continue
-                pairs, plain = _pairs(given, argument), ast.unparse(given)
+                plain = ast.unparse(given)
+                is_whole = argument == "cmd" and call.given("shell") is not None
+                pairs = plain if is_whole else _pairs(given, argument)
+                owner = "a node" if call.name in NODES else "a program"
                 hint = f"write {argument}=[{pairs}]"
                 yield Problem.at(
                     launch.place(given),
                     "error",
                     "launch-no-list",
-                    f"{argument} of a node is a list, but this is {what}: {follows}",
+                    f"{argument} of {owner} is a list, but this is {what}: {follows}",
                     bracketed(given, launch.shown, hint)
                     if pairs == plain
                     else rewritten(given, launch.shown, f"[{pairs}]", hint),
@@ -68,7 +74,7 @@ def arguments_without_list(around: Surroundings) -> Iterator[Problem]:
 def _no_list(call: Call, argument: str) -> str | None:
     """Return the kind of an argument that is not a list; None for a possible list."""
     value = call.value(argument)
-    if argument == "arguments":
+    if argument in _WORDS:
         return "a text" if isinstance(value, str) else None
     if isinstance(value, Table):
         return "a dict"
@@ -81,7 +87,7 @@ def _pairs(given: ast.expr, argument: str) -> str:
         both = zip(given.keys, given.values, strict=True)
         known = [(ast.unparse(key), ast.unparse(value)) for key, value in both if key]
         return ", ".join(f"({old}, {new})" for old, new in known)
-    if argument == "arguments" and isinstance(given, ast.Constant):
+    if argument in _WORDS and isinstance(given, ast.Constant):
         return ", ".join(repr(word) for word in str(given.value).split())
     return ast.unparse(given)
 
