@@ -145,6 +145,18 @@ CASES = [
     (YAML, "pkg: rviz2", "pkg: my_rviz", "rviz2 is in rviz2, and a package my_rviz"),
 ]
 UNSURE = [
+    (
+        PYTHON,
+        "config = os.path.join(share, 'rviz', 'robot.rviz')",
+        "config = os.path.join(LaunchConfiguration('quick'), 'rviz')",
+        "LaunchConfiguration is a substitution, whose text launch finds later",
+    ),
+    (
+        PYTHON,
+        "config = os.path.join(share, 'rviz', 'robot.rviz')",
+        "config = open(LaunchConfiguration('quick')).read()",
+        "and open takes texts",
+    ),
     (PYTHON, "LaunchDescription([", "LaunchDescription(['gui',", "a text in a list"),
     (PYTHON, "'info'", "'$(find robot)/x'", "launch replaces $(find robot) in launch"),
     (PYTHON, "Configuration('gui')", "Configuration('quick')", "quick is not declared"),
@@ -224,3 +236,35 @@ def test_what_an_included_file_declares_is_declared(package: Path) -> None:
     path.write_text(text.replace("(var view)", "(var elsewhere)"))
     (problem,) = check(package)
     assert problem.severity == "info"
+
+
+SHARES = [
+    "share = FindPackageShare('robot')",
+    "share = FindPackageShare(package='robot')",
+    "folder = FindPackageShare('robot')\n    share = os.path.join(folder, '')",
+]
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_a_substitution_is_no_text_for_python(package: Path, share: str) -> None:
+    imported = "from ament_index_python.packages import get_package_share_directory"
+    text = FILES[PYTHON].replace(
+        imported, "from launch_ros.substitutions import FindPackageShare"
+    )
+    path = package / PYTHON
+    old = "share = get_package_share_directory('robot')"
+    path.write_text(text.replace(old, share))
+    (problem,) = check(package)
+    assert (problem.code, problem.severity) == ("launch-code", "error")
+    assert problem.hint == "write .find('robot') after it"
+    path.write_bytes(edited_files(problem.edits)[str(path)])
+    assert check(package) == []
+
+
+def test_an_input_of_a_function_may_be_a_text(package: Path) -> None:
+    path = package / PYTHON
+    text = path.read_text()
+    text = text.replace("other = 'start'", "other = LaunchConfiguration('gui')")
+    before = "def path(other):\n    return os.path.join(other, 'a')\n\n\n"
+    path.write_text(text.replace("def gen", f"{before}def gen"))
+    assert check(package) == []

@@ -57,6 +57,7 @@ from sambot_viz.checks.around.launch_files.calls import (
     files_without_folder,
     paths_from_the_root,
     sets_for_dicts,
+    substitutions_for_texts,
 )
 from sambot_viz.checks.around.launch_files.choices import misspelt_truths, other_words
 from sambot_viz.checks.around.launch_files.code import (
@@ -321,6 +322,7 @@ OF_FILES: tuple[Check, ...] = (
     arguments_that_are_no_texts,
     calls_without_argument,
     sets_for_dicts,
+    substitutions_for_texts,
     paths_from_the_root,
     files_without_folder,
     arguments_without_list,

@@ -36,6 +36,36 @@ _NEEDED = {
 """Call → its required argument."""
 _DICTS = ("parameters", "launch_arguments")
 """Arguments that have dicts, by themselves or in a list."""
+_OF_TEXTS = frozenset(
+    {
+        "open",
+        "os.listdir",
+        "os.path.abspath",
+        "os.path.basename",
+        "os.path.dirname",
+        "os.path.exists",
+        "os.path.isfile",
+        "os.path.join",
+        "os.path.splitext",
+        "xacro.process",
+        "xacro.process_file",
+    }
+)
+"""Functions of Python whose arguments are texts."""
+_SUBSTITUTIONS = frozenset(
+    {
+        "Command",
+        "EnvironmentVariable",
+        "FindExecutable",
+        "FindPackagePrefix",
+        "FindPackageShare",
+        "LaunchConfiguration",
+        "PathJoinSubstitution",
+        "PythonExpression",
+        "TextSubstitution",
+        "ThisLaunchFileDir",
+    }
+)
 _ENDINGS = (".yaml", ".yml", ".sdf", ".world", ".rviz")
 
 
@@ -155,6 +185,44 @@ def _set_for_dict(
         f"a comma makes this a set of values, not a dict: {names[0]} gets no value, "
         "and ros2 launch stops or takes the set for the path of a file",
         together(hint, *fixes) if len(fixes) == len(keys) else Fix(hint),
+    )
+
+
+def substitutions_for_texts(around: Surroundings) -> Iterator[Problem]:
+    """Report substitutions of launch in functions of Python that take texts."""
+    for launch in around.launches:
+        found: dict[int, tuple[ast.Call, str]] = {}
+        for call in launch.calls:
+            function = ast.unparse(call.node.func)
+            for node in call.node.args if function in _OF_TEXTS else ():
+                inner = launch.origin(node)
+                name = call_name(inner.func) if isinstance(inner, ast.Call) else ""
+                if isinstance(inner, ast.Call) and name in _SUBSTITUTIONS:
+                    found.setdefault(id(inner), (inner, function))
+        for inner, function in found.values():
+            yield _no_plain_text(inner, function, launch)
+
+
+def _no_plain_text(node: ast.Call, function: str, launch: LaunchFile) -> Problem:
+    name = call_name(node.func)
+    fix = Fix(
+        "write PathJoinSubstitution([…]) with the same parts for os.path.join"
+        if function == "os.path.join"
+        else "read the text in an OpaqueFunction with .perform(context)"
+    )
+    given = [*node.args, *(k.value for k in node.keywords)]
+    package = launch.values.text(given[0]) if given else None
+    if name == "FindPackageShare" and package is not None:
+        end = Place(launch.shown, node.end_lineno or 1, (node.end_col_offset or 0) + 1)
+        added = f".find('{package}')"
+        fix = write_between(end, end, added, f"write {added} after it")
+    return Problem.at(
+        launch.place(node),
+        "error",
+        "launch-code",
+        f"{name} is a substitution, whose text launch finds later, and {function} "
+        "takes texts: ros2 launch stops with it",
+        fix,
     )
 
 

@@ -102,7 +102,8 @@ class LaunchFile:
             if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
                 name = node.targets[0].id
                 found[name] = None if name in found else node.value
-        return found
+        inputs = {node.arg for node in ast.walk(self.tree) if isinstance(node, ast.arg)}
+        return found | dict.fromkeys(inputs & found.keys())
 
     def origin(self, node: ast.expr) -> ast.expr:
         """Return the expression inside variables and a ParameterValue."""
