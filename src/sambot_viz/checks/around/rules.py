@@ -227,6 +227,7 @@ from sambot_viz.checks.around.topics.display_words import (
 from sambot_viz.checks.around.topics.displays import unseen_topics
 from sambot_viz.checks.around.topics.joint_states import (
     no_joint_states,
+    unheard_joint_states,
     unsent_joint_states,
 )
 from sambot_viz.checks.around.topics.read import unknown_topics
@@ -411,6 +412,7 @@ OF_ROBOT: tuple[Check, ...] = (
     shared_topics,
     bridge_topics,
     unsent_joint_states,
+    unheard_joint_states,
     scoped_frames,
     clock_not_bridged,
     plugins_of_the_other,

@@ -8,12 +8,16 @@ from sambot_viz.checks.around.gazebo.systems import attributes, near_system
 from sambot_viz.checks.around.launching.actions import LaunchArgument, Operation
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.bridge_entries import bare
+from sambot_viz.checks.around.running.system import Endpoint, RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
-from sambot_viz.errors import Problem
+from sambot_viz.edits import write
+from sambot_viz.errors import Fix, Place, Problem
 
 _SENDER = "joint-state-publisher-system"
 _TRUE = frozenset({"true", "1"})
+_READER, _KIND = "robot_state_publisher", "JointState"
+_SOURCES = (".py", ".cpp", ".hpp", ".h", ".ino", ".lua")
 
 
 def no_joint_states(around: Surroundings) -> Iterator[Problem]:
@@ -88,3 +92,93 @@ def unsent_joint_states(around: Surroundings) -> Iterator[Problem]:
             f"({where(entry.gz.place, place)})",
             f"add {topic} to the plugin",
         )
+
+
+def unheard_joint_states(around: Surroundings) -> Iterator[Problem]:
+    """Report joint states that robot_state_publisher reads under another name."""
+    running = around.running
+    if not running.is_known or _may_have_others(around):
+        return
+    ends = [(n, end) for n in running.started for end in n.endpoints]
+    states = [(n, end) for n, end in ends if end.message == _KIND]
+    readers = [(n, e) for n, e in states if not e.publishes and n.executable == _READER]
+    found: dict[str, Problem] = {}
+    for reader, end in readers:
+        # What another launch file with a reader starts is for that one.
+        others = {n.launch for n, _ in readers} - {reader.launch}
+        near = [(n, e) for n, e in states if n.launch not in others]
+        read = {e.topic for _, e in near if not e.publishes}
+        read |= {f"/{bare(name)}" for n in running.started for name in _sources(n)}
+        senders = [(n, e) for n, e in near if e.publishes]
+        odd = [each for each in senders if each[0].launch == reader.launch]
+        if reader.starts != "yes" or any(e.topic in read for _, e in senders):
+            continue
+        for sender, sent in odd[:1]:
+            for problem in _unheard(around, (reader, end), (sender, sent)):
+                found.setdefault(problem.message, problem)
+    yield from found.values()
+
+
+def _may_have_others(around: Surroundings) -> bool:
+    """Return whether ros2_control or a program may publish or read joint states."""
+    if any("ros2_control" in plugin.filename for plugin in around.plugins):
+        return True
+    if any(node.package == "controller_manager" for node in around.running.started):
+        return True
+    used = {each for package in around.packages for each in package.used}
+    return any(
+        _KIND in (package.text(path) or "")
+        for package in used.union(around.packages)
+        for path in package.ending(*_SOURCES)
+        if not path.endswith("launch.py")
+    )
+
+
+def _sources(node: RunningNode) -> tuple[str, ...]:
+    """Return the topics that a joint_state_publisher collects."""
+    given = node.parameter("source_list")
+    return (given.values or ()) if given is not None else ()
+
+
+def _unheard(
+    around: Surroundings,
+    read: tuple[RunningNode, Endpoint],
+    sent: tuple[RunningNode, Endpoint],
+) -> Iterator[Problem]:
+    """Report the odd one of two ends; the rule about namespaces has the others."""
+    (reader, end), (sender, topic) = read, sent
+    what = "the bridge" if sender.is_bridge else sender.executable
+    is_renamed = _renames(reader)
+    if sender.is_bridge and not is_renamed:
+        place = topic.place
+        fix = write(place, topic.written, f"/{bare(end.topic)}")
+    else:
+        odd, other = (reader, what) if is_renamed else (sender, _READER)
+        if not _renames(odd):
+            return
+        place = _remapped_at(around, odd)
+        fix = Fix(f"delete the remapping, or write one for {other} too")
+    at = "" if place == topic.place else f" ({where(topic.place, place)})"
+    yield Problem.at(
+        place,
+        "warning",
+        "launch-no-joint-states",
+        f"{_READER} ({where(reader.place, place)}) reads {end.topic}, but {what}{at} "
+        f"publishes the joint states as {topic.topic}: wheels and other joints that "
+        "move have no transform",
+        fix,
+    )
+
+
+def _renames(node: RunningNode) -> bool:
+    return any(bare(old) == "joint_states" for old, _ in node.remappings)
+
+
+def _remapped_at(around: Surroundings, node: RunningNode) -> Place:
+    """Return the place of the remappings of a node, or its own."""
+    for launch in around.launches:
+        for call in launch.called():
+            given = call.given("remappings")
+            if call.place == node.place and given is not None:
+                return launch.place(given)
+    return node.place
