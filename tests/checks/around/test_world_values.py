@@ -43,6 +43,7 @@ def generate_launch_description():
       <real_time_update_rate>1000</real_time_update_rate>
     </physics>
     <light type="point" name="lamp"><pose>0 0 2.5 0 0 0</pose></light>
+    <light type="directional" name="sun"><direction>0.1 0 -1</direction></light>
     <model name="ground">
       <static>true</static>
       <link name="l">
@@ -83,6 +84,9 @@ def problems(world: Path) -> list[tuple[str, str, int | None]]:
         ("0.001<", "0,001<", "world-value", "warning"),
         ("0 0 2.5 0 0 0", "0 0 2,5 0 0 0", "world-value", "warning"),
         ("      <static>true</static>\n", "", "world-value", "warning"),
+        ("<static>true", "<static>false", "world-value", "warning"),
+        ("<static>true", "<static>treu", "world-value", "warning"),
+        ("0.1 0 -1<", "0.1 0 1<", "world-value", "warning"),
         (
             "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Sun",
             "model://sun",
@@ -102,7 +106,7 @@ def test_a_mistake_in_a_world_is_undone_by_its_edit(
     assert problems(world) == []
     world.write_text(text.replace(right, wrong))
     place = text[: text.index(right)].count("\n") + 1
-    if "static" in right:
+    if "static" in right and not wrong:
         place -= 1
     assert problems(world) == [(code, severity, place)]
     (problem,) = (p for p in check(world.parents[1]) if p.code == code)
@@ -118,6 +122,13 @@ def test_a_mistake_in_a_world_is_undone_by_its_edit(
         ("-9.8<", "-1.62<"),
         ("      <static>true</static>\n", "<joint name='j' type='fixed'/>"),
         ('<light type="point"', '<light type="spot"'),
+        # A turned sun, and a second one that lights what is below.
+        ("<direction>0.1 0 -1", "<pose>0 0 9 3.14 0 0</pose><direction>0 0 1"),
+        (
+            "<model name=",
+            '<light type="directional" name="b"><direction>0 0 1</direction></light>'
+            "<model name=",
+        ),
     ],
 )
 def test_other_worlds_are_right_too(world: Path, right: str, other: str) -> None:

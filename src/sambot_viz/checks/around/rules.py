@@ -46,6 +46,7 @@ from sambot_viz.checks.around.gazebo.world_values import (
     models_of_classic,
     numbers_of_worlds,
     planes_that_fall,
+    suns_from_below,
     values_of_worlds,
 )
 from sambot_viz.checks.around.joint_names import joints_of_controllers
@@ -388,6 +389,7 @@ OF_FILES: tuple[Check, ...] = (
     values_of_worlds,
     numbers_of_worlds,
     planes_that_fall,
+    suns_from_below,
     models_of_classic,
 )
 """The rules about launch files and parameters, with or without a robot."""

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.gazebo.world_systems import elements_of_worlds
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.clues import guess
+from sambot_viz.checks.clues import Clues, guess
 from sambot_viz.checks.rule import number
 from sambot_viz.edits import put_into, write
 from sambot_viz.errors import Fix, Problem, nearest
@@ -68,24 +68,49 @@ def numbers_of_worlds(around: Surroundings) -> Iterator[Problem]:
                 write(element.place, said, said.replace(",", ".")),
             )
         elif element.tag == "gravity":
-            yield from _upwards(element, said)
+            is_earth = abs(_up(element) - _EARTH) < _LIKE_EARTH
+            follows = "all that is not static flies away"
+            yield from _upwards(element, follows, {"size"} if is_earth else set())
         elif element.tag == "physics":
             yield from _long_steps(element)
 
 
-def _upwards(element: Element, said: str) -> Iterator[Problem]:
-    parts = [Fact(part, element.place).number for part in said.split()]
-    up = parts[2] if len(parts) == 3 else None
-    if up is not None and up > 0:
-        is_earth = abs(up - _EARTH) < _LIKE_EARTH
+def suns_from_below(around: Surroundings) -> Iterator[Problem]:
+    """Report the only directional light of a world, where it shines upwards."""
+    suns: dict[str, list[Element]] = {}
+    for element in elements_of_worlds(around):
+        if element.tag == "light" and element.get("type") == "directional":
+            suns.setdefault(element.place.file, []).append(element)
+    for (sun,) in (found for found in suns.values() if len(found) == 1):
+        pose, direction = sun.find("pose"), sun.find("direction")
+        # A turned light has a turned direction.
+        is_turned = pose is not None and any(part != 0 for part in _numbers(pose)[3:])
+        if direction is not None and not is_turned:
+            follows = "the light comes from below, and what is seen from above is dark"
+            yield from _upwards(direction, follows, {"alone"})
+
+
+def _numbers(element: Element) -> list[float | None]:
+    return [Fact(part, element.place).number for part in element.text.split()]
+
+
+def _up(vector: Element) -> float:
+    """Return z of a vector; 0 for a text that is no vector."""
+    parts = _numbers(vector)
+    return (parts[2] or 0.0) if len(parts) == 3 else 0.0
+
+
+def _upwards(vector: Element, follows: str, clues: Clues) -> Iterator[Problem]:
+    """Report a vector that points up, as a guess with one clue more: its sign."""
+    said, tag = vector.text.strip(), vector.tag
+    if _up(vector) > 0:
         right = f"-{said.split()[2].lstrip('+')}"
         yield guess(
-            element.place,
+            vector.place,
             "world-value",
-            f"<gravity>{said}</gravity> points up, because z of the world does: all "
-            "that is not static flies away",
-            write(element.place, said, " ".join((*said.split()[:2], right))),
-            {"sign", "size"} if is_earth else {"sign"},
+            f"<{tag}>{said}</{tag}> points up, because z of the world does: {follows}",
+            write(vector.place, said, " ".join((*said.split()[:2], right))),
+            {"sign", *clues},
         )
 
 
@@ -131,16 +156,24 @@ def planes_that_fall(around: Surroundings) -> Iterator[Problem]:
                 and any(each.tag == "plane" for each in shape.iter())
             ]
             if model.tag == "model" and planes and not is_held:
-                static = "<static>true</static>"
                 name = model.get("name") or "without a name"
+                static = model.find("static")
                 yield Problem.at(
-                    model.place,
+                    (static or model).place,
                     "warning",
                     "world-value",
                     f"the model {name} is a plane and not static: it falls, and the "
                     "robot with it",
-                    Fix(f"add {static}", put_into(model.place, static)),
+                    _made_static(model, static),
                 )
+
+
+def _made_static(model: Element, static: Element | None) -> Fix:
+    added = "<static>true</static>"
+    said = "" if static is None else static.text.strip()
+    if static is None or not said:
+        return Fix(f"add {added}", put_into(model.place, added))
+    return write(static.place, said, "1" if said == "0" else "true")
 
 
 def _is(element: Element, *texts: str) -> bool:
