@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from edited import edited_files
 
 from sambot_viz.checks import check
 
@@ -29,6 +30,25 @@ def package(copied: Copied) -> Path:
     text = f'<sdf version="1.8">\n  <world name="room">\n{SYSTEMS}  </world>\n</sdf>\n'
     (folder / WORLD).write_text(text)
     return folder
+
+
+@pytest.mark.parametrize(
+    ("file", "name"),
+    [("gz-sim-imu-system", "Sensors"), ("gz-sim-sensors-system", "Imu")],
+)
+def test_of_two_systems_in_one_plugin_the_missing_one_is_meant(
+    package: Path, file: str, name: str
+) -> None:
+    right = (package / WORLD).read_text()
+    lines = right.splitlines(keepends=True)
+    space = "gz::sim::systems"
+    wrong = f'    <plugin filename="{file}" name="{space}::{name}"/>\n'
+    text = "".join(wrong if "::Imu" in line else line for line in lines)
+    (package / WORLD).write_text(text)
+    (problem,) = check(package / MODEL)
+    assert problem.code == "gazebo-plugin"
+    edited = edited_files(problem.edits)[str(package / WORLD)]
+    assert edited.decode() == right
 
 
 def edit(folder: Path, file: str, old: str, new: str) -> None:

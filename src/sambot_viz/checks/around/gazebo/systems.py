@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 from sambot_viz.checks.around.files.gazebo import Fact, Plugin, facts, plugins
 from sambot_viz.checks.around.place import where
@@ -41,7 +41,9 @@ def unknown_systems(robot: Robot) -> Iterator[Problem]:
     """Report plugins of a model that Gazebo does not load."""
     found = list(plugins(robot.gazebo))
     for plugin in found:
-        problem, other = faulty_system(plugin.element), among_others(plugin, found)
+        beside = [p.filename for p in found if p is not plugin]
+        problem = faulty_system(plugin.element, beside)
+        other = among_others(plugin, found)
         if problem is not None and other is None:
             yield problem
         elif (
@@ -71,8 +73,13 @@ def among_others(plugin: Plugin, found: Sequence[Plugin]) -> Plugin | None:
     return next(iter(others), None)
 
 
-def faulty_system(plugin: Element) -> Problem | None:
-    """Report a misspelt system of Gazebo, or the name of another class."""
+def faulty_system(plugin: Element, beside: Collection[str]) -> Problem | None:
+    """Report a misspelt system of Gazebo, or the name of another class.
+
+    Args:
+        plugin: loads the system.
+        beside: the files of the other plugins there.
+    """
     filename = plugin.get("filename") or ""
     name = (plugin.get("name") or "").strip()
     near, right = near_system(filename), _class_of(filename)
@@ -90,7 +97,8 @@ def faulty_system(plugin: Element) -> Problem | None:
             "of a plugin is that of its class, and it does not load this one"
         )
         fix = write_attribute(plugin.place, "name", name, right)
-        if holds is not None and holds != filename:
+        is_copied = holds in beside and filename not in beside
+        if holds is not None and holds != filename and not is_copied:
             fix = write_attribute(plugin.place, "filename", filename, holds)
     else:
         return None

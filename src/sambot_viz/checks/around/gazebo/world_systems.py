@@ -73,8 +73,9 @@ def missing_systems(around: Surroundings) -> Iterator[Problem]:
     place = Place(shown, line)
     needs = {need.file: need for need in reversed([*_needs(around)])}
     for need in reversed(needs.values()):
-        # A system that rests on the physics needs no second finding.
-        if need.file in has or near_names(need.file, has):
+        # Another rule reports a class with another file, or a misspelt file.
+        is_named = re.search(rf"::{need.name}[\"']", text) is not None
+        if need.file in has or is_named or near_names(need.file, has):
             continue
         inner = "<render_engine>ogre2</render_engine>" if need.name == "Sensors" else ""
         there = f" ({where(need.place, place)})" if need.place is not None else ""
@@ -130,10 +131,16 @@ def unreadable_worlds(around: Surroundings) -> Iterator[Problem]:
 
 def plugins_of_worlds(around: Surroundings) -> Iterator[Problem]:
     """Report plugins of a world that Gazebo does not load."""
-    for element in elements_of_worlds(around):
-        problem = faulty_system(element) if element.tag == "plugin" else None
+    plugins = [e for e in elements_of_worlds(around) if e.tag == "plugin"]
+    for plugin in plugins:
+        others = (o for o in plugins if o is not plugin and _in_one_file(o, plugin))
+        problem = faulty_system(plugin, {o.get("filename") or "" for o in others})
         if problem is not None:
             yield problem
+
+
+def _in_one_file(one: Element, other: Element) -> bool:
+    return one.place.file == other.place.file
 
 
 def elements_of_worlds(around: Surroundings) -> Iterator[Element]:
