@@ -331,6 +331,54 @@ def put_into(place: Place | None, written: str) -> tuple[Edit, ...]:
     return (source.edit(place, Extent(tag.end, tag.end), f"{blanks}{written}"),)
 
 
+def write_as_text(place: Place, name: str) -> tuple[Edit, ...]:
+    """Return the edits that make an attribute of an element without content its text.
+
+    Args:
+        place: where the element begins.
+        name: the attribute.
+    """
+    found = _tag_at(place)
+    if found is None or name not in found[1].values:
+        return ()
+    source, tag = found
+    start, value = tag.names[name].start, tag.values[name]
+    before = source.text[:start]
+    gone = Extent(len(before.rstrip()), value.end + 1)
+    text = source.text[slice(*value)]
+    edits = [source.edit(place, gone, "")]
+    if tag.is_empty:
+        element = source.text[slice(*tag.name)]
+        end = Extent(tag.rest, tag.end)
+        return (*edits, source.edit(place, end, f">{text}</{element}>"))
+    inside = Extent(tag.end, source.text.find("<", tag.end))
+    return (*edits, source.edit(place, inside, text))
+
+
+def move_before(place: Place, outer: Place) -> tuple[Edit, ...]:
+    """Return the edits that move an element, with its line, before one around it.
+
+    Args:
+        place: where the element begins.
+        outer: where the one around it begins.
+    """
+    found, around = _tag_at(place), _tag_at(outer)
+    if found is None or around is None or place.file != outer.file:
+        return ()
+    source, tag = found
+    start, at = source.offset(place), source.offset(outer)
+    end = source.end_of(tag)
+    if end is None or at >= start:
+        return ()
+    text = source.text[start:end]
+    line = len(source.text[:start].rstrip(" \t"))
+    blanks = source.text[source.text.rfind("\n", 0, at) + 1 : at]
+    between = f"\n{blanks}" if not blanks.strip() else ""
+    moved = source.edit(outer, Extent(at, at), f"{text}{between}")
+    line -= source.text[:line].endswith("\n")
+    return (source.edit(place, Extent(line, end), ""), moved)
+
+
 def rename_attribute(
     place: Place, wrong: str, right: str, value: str, hint: str
 ) -> Fix:

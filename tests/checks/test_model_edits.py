@@ -226,6 +226,10 @@ CLASSIC = """\
 </robot>
 """
 INTERFACE, PLUGIN = "control-interface", "gazebo-plugin"
+AS_TEXT = (
+    "<plugin>gz_ros2_control/GazeboSimSystem</plugin>",
+    '<plugin name="gz_ros2_control/GazeboSimSystem"/>',
+)
 
 
 @pytest.mark.parametrize(
@@ -234,6 +238,8 @@ INTERFACE, PLUGIN = "control-interface", "gazebo-plugin"
         (CONTROL, "velocity", "velosity", INTERFACE),
         (CONTROL, "GazeboSim", "GazebboSim", INTERFACE),
         (CONTROL, 'type="system"', 'type="sytem"', INTERFACE),
+        (CONTROL, *AS_TEXT, INTERFACE),
+        (CONTROL, AS_TEXT[0], AS_TEXT[1].replace("/>", "></plugin>"), INTERFACE),
         (CONTROL, '"right_wheel_joint">', '"left_wheel_joint">', INTERFACE),
         (CONTROL, "state_interface name", "stat_interface name", "element-misspelt"),
         (CONTROL, "state_interface name", "state_interface nAme", "attribute-misspelt"),
@@ -254,6 +260,22 @@ def test_the_edit_brings_parts_for_the_simulator_back(
     assert problem.code == code
     path.write_bytes(edited_files(problem.edits)[str(path)])
     assert path.read_text() == text
+
+
+@pytest.mark.parametrize("around", ["gazebo", "link"])
+def test_a_part_for_controllers_is_moved_into_the_robot(
+    tmp_path: Path, around: str
+) -> None:
+    path = tmp_path / "cart.urdf"
+    text = URDF[: URDF.index("  <gazebo")] + CONTROL
+    part = CONTROL.removesuffix("</robot>\n")
+    inside = f'  <{around} name="x">\n{part}  </{around}>\n'
+    path.write_text(text.replace(part, inside))
+    (problem,) = (p for p in check(path) if "ros2_control" in p.message)
+    assert problem.code == "element-misplaced"
+    path.write_bytes(edited_files(problem.edits)[str(path)])
+    moved = f'{part}  <{around} name="x">\n  </{around}>\n'
+    assert path.read_text() == text.replace(part, moved)
 
 
 def test_a_part_that_nothing_reads_has_to_be_xml(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from sambot_viz.edits import rename_attribute, rename_element
+from sambot_viz.edits import move_before, rename_attribute, rename_element
 from sambot_viz.errors import Fix
 from sambot_viz.robot.findings import tag_text
 from sambot_viz.robot.slips.misspelt import CALL, Slip
@@ -90,7 +90,9 @@ def _misplaced(slip: Slip, effect: str) -> SlipWords:
         f"{tag} {mean} nothing in {inside}, where ROS ignores {it}{effect}; {belongs} "
         f"in {_alternatives(slip.parents)}"
     )
-    return SlipWords("element-misplaced", message, _remedy(slip))
+    is_next = parent is not None and slip.target is parent.parent is not None
+    edits = move_before(element.place, parent.place) if parent and is_next else ()
+    return SlipWords("element-misplaced", message, Fix(_remedy(slip), edits))
 
 
 def _remedy(slip: Slip) -> str:

@@ -36,8 +36,8 @@ _SYNONYMS = {
 _WORDS = {
     "robot": Word(
         "name version",
-        many="link joint material gazebo transmission",
-        also="ros2_control sensor loop_joint",
+        many="link joint material gazebo transmission ros2_control",
+        also="sensor loop_joint",
     ),
     "link": Word("name type", "inertial", "visual collision", "contact sensor"),
     "visual": Word("name", "origin geometry material"),

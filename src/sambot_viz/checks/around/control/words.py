@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from sambot_viz.checks.around.place import where
-from sambot_viz.edits import put_into, write, write_attribute
+from sambot_viz.edits import (
+    move_before,
+    put_into,
+    write,
+    write_as_text,
+    write_attribute,
+)
 from sambot_viz.errors import Fix, Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.slips.misspelt import find_slips
@@ -44,12 +50,18 @@ _HARDWARE = (
     "topic_based_ros2_control/TopicBasedSystem",
 )
 """Hardware that needs no code from the user."""
+_AS_TEXT = {
+    "plugin": (("name", "type", "class", "value"), "no controller gets the joints"),
+    "param": (("value",), "the hardware does not get the parameter"),
+}
+"""Element → attributes that people write for its text, and what follows."""
 
 
 def words_of_control(robot: Robot) -> Iterator[Problem]:
     """Report misspelt words that ros2_control does not know."""
     for part in robot.gazebo:
         if part.tag != "ros2_control":
+            yield from _inside(part)
             continue
         for slip in find_slips(part, _WORDS):
             said = slip_in_words(slip, False)
@@ -63,6 +75,7 @@ def words_of_control(robot: Robot) -> Iterator[Problem]:
                 if interface.tag in ("command_interface", "state_interface"):
                     what = f"joints have no {interface.tag.replace('_', ' ')}"
                     yield from _attribute(interface, "name", _INTERFACES, what)
+        yield from _in_attributes(part)
         yield from _hardware(part)
         yield from _twice(part, robot)
         yield from _unlike_others(part)
@@ -81,6 +94,40 @@ def _attribute(
             _CODE,
             f"{what} {said}: the controllers of the joint do not start",
             write_attribute(element.place, name, said, near[0]),
+        )
+
+
+def _in_attributes(part: Element) -> Iterator[Problem]:
+    """Report what ros2_control reads as text, and the model has as an attribute."""
+    for element in part.iter():
+        names, follows = _AS_TEXT.get(element.tag, ((), ""))
+        said = next((n for n in names if element.get(n)), None)
+        if element.text.strip() or not (said or element.tag == "plugin"):
+            continue
+        word = element.get(said) if said else "the class of the hardware"
+        edits = write_as_text(element.place, said) if said else ()
+        yield Problem.at(
+            element.place,
+            "warning",
+            _CODE,
+            f"<{element.tag}> has no text, and ros2_control reads only that: {follows}",
+            Fix(f"write {word} between <{element.tag}> and </{element.tag}>", edits),
+        )
+
+
+def _inside(part: Element) -> Iterator[Problem]:
+    """Report a <ros2_control> in a <gazebo>."""
+    for control in part.find_all("ros2_control"):
+        yield Problem.at(
+            control.place,
+            "warning",
+            "element-misplaced",
+            "<ros2_control> means nothing in <gazebo>, where nobody reads it: no "
+            "controller gets the joints; it belongs in <robot>",
+            Fix(
+                "move <ros2_control> out of <gazebo>, directly into <robot>",
+                move_before(control.place, part.place),
+            ),
         )
 
 
