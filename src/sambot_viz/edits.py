@@ -367,8 +367,9 @@ def move_before(place: Place, outer: Place) -> tuple[Edit, ...]:
         return ()
     source, tag = found
     start, at = source.offset(place), source.offset(outer)
-    end = source.end_of(tag)
-    if end is None or at >= start:
+    end, last = source.end_of(tag), source.end_of(around[1])
+    if end is None or last is None or not at < start < end < last:
+        # A macro elsewhere makes the element.
         return ()
     text = source.text[start:end]
     line = len(source.text[:start].rstrip(" \t"))

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
+from edited import edited_files
 
 from sambot_viz import Problem, RobotError, load_robot
 
@@ -36,6 +38,27 @@ def found(text: str) -> tuple[Problem, ...]:
 
 def test_the_model_of_these_tests_is_good() -> None:
     assert found(GOOD) == ()
+
+
+@pytest.mark.parametrize(
+    "right",
+    [
+        "<parent>base_link</parent><child>lidar_link",
+        "<child>lidar_link",
+        'relative_to="base_link">0 0 1',
+        'attached_to="lidar_link"',
+    ],
+)
+def test_the_own_model_is_no_prefix_of_a_name(tmp_path: Path, right: str) -> None:
+    frame = '<frame name="beam" attached_to="lidar_link"/>\n</model>'
+    good = GOOD.replace("</model>", frame)
+    path = tmp_path / "bot.sdf"
+    wrong = re.sub("(base|lidar)_link", r"bot::\1_link", right, count=1)
+    path.write_text(good.replace(right, wrong))
+    (problem,) = (p for p in found(str(path)) if p.severity == "error")
+    assert "bot is the model itself" in problem.message
+    path.write_bytes(edited_files(problem.edits)[str(path)])
+    assert path.read_text() == good
 
 
 @pytest.mark.parametrize("name", ["lidar_jnt", "mount", "right_lidar_joint", "left"])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sambot_viz.edits import write_attribute
+from sambot_viz.edits import write, write_attribute
 from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.sdf.fields import text_in
@@ -140,6 +140,16 @@ def _refuse_frame(
     findings: ModelFindings,
 ) -> None:
     """Report an end that is a frame, a joint, or in a nested model."""
+    if (own := scope.without_own(name)) is not None:
+        findings.reject(
+            f"joint-{tag}-unknown",
+            f"joint {joint.name} names the {tag} link '{name}', which does not exist: "
+            f"{scope.model.get('name')} is the model itself, in which its own links "
+            f"have no prefix; {REFUSED}",
+            write(element.place, name, own, hint=f"write <{tag}>{own}</{tag}>"),
+            element,
+        )
+        return
     if "::" in name:
         findings.reject(
             "sdf-joint-to-nested",

@@ -84,6 +84,16 @@ class Scope:
             scope = scope.nested[model]
         return scope.own if last == OWN else scope.frames.get(last)
 
+    def without_own(self, name: str) -> str | None:
+        """Return the rest of "model::arm" in that model itself; None for other names.
+
+        A model does not find its own name in itself.
+        """
+        model, colons, rest = name.partition("::")
+        own = trimmed(self.model.get("name") or "")
+        is_own = bool(colons) and model == own and self.find(name) is None
+        return rest if is_own and self.find(rest) is not None else None
+
     def of_kind(self, kind: str) -> list[Frame]:
         """Return the frames of one kind, in document order."""
         return [frame for frame in self.frames.values() if frame.kind == kind]

@@ -44,6 +44,12 @@ def unknown_frame(
         f'{attribute}="{name}" of {described(at)}: there is no link, joint or frame '
         f"called {name}"
     )
+    if (own := scope.without_own(name)) is not None:
+        return FrameWords(
+            f"{message}: {scope.model.get('name')} is the model itself, in which its "
+            f"own names have no prefix; {REFUSED}",
+            write_attribute(at.place, attribute, name, own),
+        )
     if any(joint.element.get("type") == name for joint in scope.of_kind("joint")):
         return FrameWords(
             f"{message}: the joint has it as its type; {REFUSED}",
