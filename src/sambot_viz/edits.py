@@ -355,6 +355,35 @@ def write_as_text(place: Place, name: str) -> tuple[Edit, ...]:
     return (*edits, source.edit(place, inside, text))
 
 
+def copy_as(
+    place: Place | None, tag: str, other: str, parts: Sequence[str]
+) -> tuple[Edit, ...]:
+    """Return the edit that writes an element again behind it, with another tag.
+
+    Args:
+        place: where the element begins.
+        tag: its tag.
+        other: that of the copy.
+        parts: the tags of the children that the copy has.
+    """
+    found = _tag_at(place) if place is not None else None
+    end = None if found is None else found[0].end_of(found[1])
+    if place is None or found is None or end is None:
+        return ()
+    source, start = found[0], found[0].offset(place)
+    blanks = source.text[source.text.rfind("\n", 0, start) + 1 : start]
+    if blanks.strip() or source.text[slice(*found[1].name)] != tag:
+        return ()
+    text = "".join(
+        f"\n{blanks}  {source.text[at : source.end_of(inner)]}"
+        for part in parts
+        for match in re.finditer(rf"<{part}(?=[\s/>])", source.text[start:end])
+        if (inner := source.tag(at := start + match.start())) is not None
+    )
+    added = f"\n{blanks}<{other}>{text}\n{blanks}</{other}>"
+    return (source.edit(place, Extent(end, end), added),)
+
+
 def move_before(place: Place, outer: Place) -> tuple[Edit, ...]:
     """Return the edits that move an element, with its line, before one around it.
 

@@ -38,6 +38,22 @@ def test_wheels_that_both_turn_backwards_are_given_the_other_axis(model: Path) -
     assert edited(model, '<axis xyz="0 -1 0"/>', AXIS) == []
 
 
+def test_driven_wheels_without_a_collision_get_that_of_their_visual(
+    model: Path,
+) -> None:
+    wheel = model.read_text().partition("</collision>")[0] + "</collision>"
+    shape = wheel[wheel.index("<collision>") :]
+    visual = shape.replace("collision>", "visual>")
+    assert edited(model, shape, f"{visual}\n      {shape}") == []
+
+    (problem,) = edited(model, f"\n      {shape}", "")
+
+    assert problem.code == "wheel-not-on-ground"
+    assert "left_wheel_link and right_wheel_link have no" in problem.message
+    model.write_text(apply_edits(problem.edits, model.read_text()))
+    assert f"{visual}\n      {shape}" in model.read_text()
+
+
 def test_a_wheel_that_turns_against_the_other_one_is_named(model: Path) -> None:
     (problem,) = edited(model, AXIS, '<axis xyz="0 ${side} 0"/>')
 

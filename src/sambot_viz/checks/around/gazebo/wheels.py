@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.place import where
-from sambot_viz.checks.rule import number
-from sambot_viz.edits import write
-from sambot_viz.errors import Problem
+from sambot_viz.checks.rule import listed, number
+from sambot_viz.edits import copy_as, write
+from sambot_viz.errors import Fix, Problem
 from sambot_viz.geometry import UP, dot
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Box, Cylinder, Joint, Sphere
@@ -78,8 +78,39 @@ def wheel_sizes_of_controllers(around: Surroundings) -> Iterator[Problem]:
 def _compare(robot: Robot, drive: _Drive) -> Iterator[Problem]:
     pairs = list(_pairs(robot, drive))
     if pairs:
+        yield from _sinking(robot, [joint for pair in pairs for joint in pair])
         yield from _separation(robot, drive, pairs)
         yield from _radius(robot, drive, pairs[0][0])
+
+
+def _sinking(robot: Robot, joints: Sequence[Joint]) -> Iterator[Problem]:
+    """Report driven wheels without a collision under a body that has one."""
+    links = [robot.links[joint.child] for joint in joints]
+    sinking = [link for link in links if link.inertial and link.visuals]
+    parts = [robot.links[joint.parent] for joint in joints]
+    fixed = [j for j in robot.joints.values() if j.type == "fixed"]
+    # A tyre may be a link of its own.
+    holders = {j.parent for j in fixed if robot.links[j.child].collisions}
+    sinking = [x for x in sinking if not x.collisions and x.name not in holders]
+    if not sinking or not any(part.collisions for part in parts):
+        return
+    one, wheel = len(sinking) == 1, sinking[0]
+    visual, place = wheel.visuals[0], wheel.place
+    is_round = isinstance(visual.geometry, (Cylinder, Sphere))
+    edits = copy_as(visual.place, "visual", "collision", ("origin", "geometry"))
+    yield Problem.at(
+        place,
+        "warning",
+        "wheel-not-on-ground",
+        f"the driven wheel{'' if one else 's'} {listed(x.name for x in sinking)} "
+        f"{'has' if one else 'have'} no <collision>, and the body has one: in Gazebo "
+        f"{'it sinks' if one else 'they sink'} into the ground, and the robot does not "
+        "drive",
+        Fix(
+            "add a <collision> with the shape of the <visual>",
+            edits if is_round and robot.language == "urdf" else (),
+        ),
+    )
 
 
 def _pairs(robot: Robot, drive: _Drive) -> Iterator[tuple[Joint, Joint]]:
