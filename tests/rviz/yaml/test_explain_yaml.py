@@ -3,6 +3,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from edited import edited_files
 
 from sambot_viz.errors import ConfigError
 from sambot_viz.rviz.yaml.yaml_document import Document
@@ -39,8 +40,8 @@ MANAGER = "Visualization Manager:\n"
             "a blank behind the key",
         ),
         (
-            MANAGER + "  Displays:\n    - a\n   b: c\n",
-            "f:4:4: error[config-yaml]: the indentation does not fit any map or list "
+            MANAGER + "  Displays:\n      - a\n    b: c\n",
+            "f:4:5: error[config-yaml]: the indentation does not fit any map or list "
             "above; indent it exactly like the other keys of its map",
         ),
         (
@@ -118,6 +119,24 @@ def test_a_text_that_is_no_rviz_document_is_explained(text: str, message: str):
     with pytest.raises(ConfigError) as caught:
         Document(text, "f")
     assert str(caught.value) == message
+
+
+@pytest.mark.parametrize("blanks", [3, 5])
+@pytest.mark.parametrize("right", ["    - Class: b", "      Name: n"])
+def test_a_line_that_is_one_blank_off_its_like_is_moved(
+    tmp_path: Path, right: str, blanks: int
+):
+    text = f"{MANAGER}  Displays:\n    - Class: a\n      Name: m\n"
+    text += "    - Class: b\n      Name: n\n      Value: true\n"
+    depth = len(right) - len(right.lstrip()) + blanks - 4
+    path = tmp_path / "r.rviz"
+    path.write_text(text.replace(right, " " * depth + right.lstrip()))
+    with pytest.raises(ConfigError) as caught:
+        Document.load(path)
+    (problem,) = caught.value.problems
+    assert "one blank off" in problem.message
+    path.write_bytes(edited_files(problem.edits)[str(path)])
+    assert path.read_text() == text
 
 
 @pytest.mark.parametrize("text", ["- a\n", "just words\n", "42"])

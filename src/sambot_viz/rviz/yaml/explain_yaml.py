@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import yaml
 
-from sambot_viz.errors import Problem
-from sambot_viz.rviz.yaml.parser import ParseFault
+from sambot_viz.edits import write_between
+from sambot_viz.errors import Fix, Place, Problem
+from sambot_viz.rviz.yaml.parser import ParseFault, parse
 
 _INI_LINE = re.compile(r"(?m)^(?:[^\s:=#\[]|\\ )+=")
 _TAB_INDENT = re.compile(r"^ *\t")
@@ -70,16 +72,26 @@ def explain_yaml(
     Returns:
         A problem of severity "error". RViz itself shows nothing at all in this case.
     """
-    cause = _Slip(text, error).cause()
-    return Problem(
-        "error",
-        "config-yaml",
-        cause.message,
-        cause.hint,
-        file,
-        cause.line,
-        cause.column,
-    )
+    slip = _Slip(text, error)
+    cause = slip.cause()
+    fix = Fix(cause.hint)
+    right = slip.right_indent()
+    if right is not None:
+        message = "the indentation of this line is one blank off the others"
+        column = len(_indent(slip.lines[slip.line - 1])) + 1
+        cause = _YamlCause(
+            slip.line, column, message, f"write {right} blanks before it"
+        )
+        fix = Fix(cause.hint)
+        if file is not None:
+            start, end = Place(file, slip.line, 1), Place(file, slip.line, column)
+            fix = write_between(start, end, " " * right, cause.hint)
+    problem = Problem.at(file, "error", "config-yaml", cause.message, fix)
+    return replace(problem, line=cause.line, column=cause.column)
+
+
+def _indent(line: str) -> str:
+    return line[: len(line) - len(line.lstrip(" "))]
 
 
 class _YamlCause(NamedTuple):
@@ -153,6 +165,26 @@ class _Slip:
         if "could not find expected ':'" in self.said:
             return self._no_colon(self.line)
         return self._at_place(f"this is not YAML: {self.said}", _GENERAL)
+
+    def right_indent(self) -> int | None:
+        """Return the blanks before lines of this kind, where one more or less is wrong.
+
+        With them the file is readable.
+        """
+        here = self.lines[self.line - 1]
+        depth, is_item = len(_indent(here)), here.lstrip(" ").startswith("- ")
+        around = (*self.lines[self.line - 2 :: -1], *self.lines[self.line :])
+        alike = (x for x in around if x.lstrip(" ").startswith("- ") == is_item)
+        depths = dict.fromkeys(len(_indent(line)) for line in alike if line.strip())
+        for right in (d for d in depths if abs(d - depth) == 1):
+            lines = [*self.lines]
+            lines[self.line - 1] = " " * right + here.lstrip(" ")
+            try:
+                parse("\n".join(lines))
+            except (yaml.YAMLError, ParseFault):
+                continue
+            return right
+        return None
 
     def _at_place(self, message: str, hint: str) -> _YamlCause:
         return _YamlCause(self.line, self.column, message, hint)
