@@ -255,6 +255,7 @@ def _of_config(
         check_config,
         lists_links,
         moveit_draws_robot,
+        unknown_references,
     )
     from sambot_viz.rviz import Declarations, RvizConfig
 
@@ -271,6 +272,7 @@ def _of_config(
         return found
     frame = str(config.global_options.get("Fixed Frame"))
     is_guess = not is_opened
+    checked = check_config(around.robot, config)
     excuses = {
         "setup-fixed-frame": lambda: (
             may_be_published(around, frame)
@@ -278,8 +280,11 @@ def _of_config(
         ),
         "setup-no-robot-model": lambda: moveit_draws_robot(config),
     }
+    if not is_guess or lists_links(around.robot, config):
+        is_published = partial(may_be_published, around)
+        checked += unknown_references(around.robot, config, is_published)
     return found + [
         replace(problem, severity="info") if is_guess else problem
-        for problem in check_config(around.robot, config)
+        for problem in checked
         if problem.code not in excuses or not excuses[problem.code]()
     ]

@@ -6,7 +6,7 @@ frame that no node publishes, and a robot description that RViz misses.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sambot_viz.bundled import is_bundled
@@ -215,6 +215,36 @@ def _fixed_frame(robot: Robot, config: RvizConfig) -> Iterator[Problem]:
         "and without ROS nothing else publishes it",
         hint,
     )
+
+
+def unknown_references(
+    robot: Robot, config: RvizConfig, is_published: Callable[[str], bool]
+) -> Iterator[Problem]:
+    """Find displays that hang on a frame which does not exist.
+
+    Args:
+        robot: the robot to show.
+        config: the config that shows it.
+        is_published: returns whether a node may publish a frame that is no link.
+    """
+    for display in _all(config.displays):
+        node = display.node.get("Reference Frame")
+        frame = _text(node).lstrip("/")
+        is_frame = bool(frame) and not frame.startswith("<")
+        if not is_frame or not display.enabled or frame in robot.links:
+            continue
+        if frame in _OF_THE_WORLD or is_published(frame):
+            continue
+        place = _place(config.file, node)
+        right = nearest(frame, robot.links, _LIKENESS) or "<Fixed Frame>"
+        yield Problem.at(
+            place,
+            "warning",
+            "frame-unknown",
+            f"the display {display.name} hangs on the frame {frame}, which does not "
+            "exist: RViz does not show it",
+            _written(place, _text(node), right, right),
+        )
 
 
 def _description(display: DisplayConfig, file: str | None) -> Iterator[Problem]:

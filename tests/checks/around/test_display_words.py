@@ -272,6 +272,20 @@ def test_the_fixed_frame_of_a_config_with_this_robot_s_links_is_a_guess(
     assert not problem.edits
 
 
+def test_a_display_hangs_on_a_frame_that_exists(package: Path) -> None:
+    path = package / CONFIG
+    grid = "    - Class: rviz_default_plugins/Grid\n      Enabled: true\n"
+    grid += "      Reference Frame: <Fixed Frame>\n  Tools:"
+    text = path.read_text().replace("  Tools:", grid)
+    for right in ("<Fixed Frame>", "base", "odom"):
+        path.write_text(text.replace(": <Fixed Frame>\n  Tools", f": {right}\n  Tools"))
+        assert check(package) == []
+    path.write_text(text.replace(": <Fixed Frame>\n  Tools", ": base_scan\n  Tools"))
+    (problem,) = check(package)
+    assert (problem.code, problem.severity) == ("frame-unknown", "warning")
+    assert edited_files(problem.edits)[str(path)].decode() == text
+
+
 TWO_LINKS = """\
 <robot name="r">
   <link name="base"/>
