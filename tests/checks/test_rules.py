@@ -748,6 +748,28 @@ def test_principal_moments_are_found_however_the_body_is_turned(
     assert bool(checked(body, "inertia-impossible")) is wrong
 
 
+@pytest.mark.parametrize(
+    ("shape", "formula"),
+    [
+        ('<cylinder radius="0.1" length="0.04"/>', "izz = m r² / 2"),
+        ('<sphere radius="0.1"/>', "2 m r² / 5"),
+        ('<box size="1 1 1"/>', "ixx = m (y² + z²) / 12"),
+        ('<mesh filename="a.stl"/>', "ixx = m (y² + z²) / 12"),
+    ],
+)
+def test_an_inertia_is_taken_from_the_own_shape(
+    checked: Checked, shape: str, formula: str
+) -> None:
+    inertia = '<inertia ixx="1" ixy="0.1" ixz="0" iyy="1" iyz="0" izz="9"/>'
+    body = joint("", "fixed").replace(
+        '<link name="b"/>',
+        f'<link name="b"><inertial><mass value="1"/>{inertia}</inertial>'
+        f"<visual><geometry>{shape}</geometry></visual></link>",
+    )
+    (problem,) = checked(body, "inertia-impossible")
+    assert formula in problem.hint
+
+
 def test_links_of_one_macro_with_an_impossible_inertia_are_one_problem(
     tmp_path: Path,
 ) -> None:

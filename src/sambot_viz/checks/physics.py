@@ -12,7 +12,7 @@ from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.checks.unused_macros import links_without_mass, unused_inertia
 from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.geometry import ORIGIN, Vector3
-from sambot_viz.robot.parts import Inertial
+from sambot_viz.robot.parts import Box, Cylinder, Geometry, Inertial, Link, Sphere
 
 
 def inertia_on_root(subject: Subject) -> Iterator[Problem]:
@@ -75,7 +75,8 @@ def impossible_inertia(subject: Subject) -> Iterator[Problem]:
             place = link.inertial.place or link.place
             found.setdefault(place, []).append((link.name, link.inertial.call))
             fix = repaired(link, lambda other: _why_impossible(other) is None)
-            reasons.setdefault(place, (reason[0], fix or reason[1]))
+            hint = reason[1] or f"take mass and inertia from the shape: {_solid(link)}"
+            reasons.setdefault(place, (reason[0], fix or hint))
     for place, links in found.items():
         reason, hint = reasons[place]
         names = [f"{name}{_called_at(call, place)}" for name, call in links]
@@ -93,26 +94,39 @@ def _called_at(call: Place | None, here: Place | None) -> str:
     return "" if call is None else f" ({where(call, here)})"
 
 
-_OF_THE_SHAPE = (
-    "take mass and inertia from the shape: a box of size x y z has "
-    "ixx = m (y² + z²) / 12"
-)
+_SOLIDS: dict[type[Geometry], str] = {
+    Cylinder: "a cylinder of radius r and length h along z has ixx = iyy = "
+    "m (3 r² + h²) / 12 and izz = m r² / 2",
+    Sphere: "a sphere of radius r has ixx = iyy = izz = 2 m r² / 5",
+    Box: "a box of size x y z has ixx = m (y² + z²) / 12",
+}
+"""Shape → its moments of inertia; a box for all others."""
+
+
+def _solid(link: Link) -> str:
+    """Return the formula for the shape of a link."""
+    shapes = link.collisions or link.visuals
+    kinds = {type(shape.geometry) for shape in shapes}
+    return _SOLIDS.get(kinds.pop(), _SOLIDS[Box]) if len(kinds) == 1 else _SOLIDS[Box]
 
 
 def _why_impossible(inertial: Inertial) -> tuple[str, str] | None:
-    """Return why no real body has this mass and inertia, and what to do about it."""
+    """Return why no real body has this mass and inertia, and what to do about it.
+
+    The second is empty where only the shape helps.
+    """
     if inertial.mass < 0:
-        return f"the mass {number(inertial.mass)} is negative", _OF_THE_SHAPE
+        return f"the mass {number(inertial.mass)} is negative", ""
     diagonal = (inertial.ixx, inertial.iyy, inertial.izz)
     if min(diagonal) < 0:
-        return "a moment of inertia (ixx, iyy, izz) is negative", _OF_THE_SHAPE
+        return "a moment of inertia (ixx, iyy, izz) is negative", ""
     reason = _why_no_tensor(inertial)
     if not reason:
         return None
     names = [name for name in ("ixy", "ixz", "iyz") if getattr(inertial, name)]
     alone = replace(inertial, ixy=0.0, ixz=0.0, iyz=0.0)
     if not names or _why_no_tensor(alone):
-        return reason, _OF_THE_SHAPE
+        return reason, ""
     products = " ".join(f'{n}="{number(getattr(inertial, n))}"' for n in names)
     moments = " ".join(
         f'{n}="{number(getattr(inertial, n))}"' for n in ("ixx", "iyy", "izz")
