@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
+from manifests import manifest
 
 from sambot_viz.checks import check
 
@@ -31,15 +32,7 @@ Guard::Guard() : Node("guard")
 }
 """
 FILES = {
-    "package.xml": """\
-<package format="3">
-  <name>robot</name>
-  <version>0.0.1</version>
-  <description>A robot.</description>
-  <maintainer email="me@example.org">me</maintainer>
-  <license>MIT</license>
-</package>
-""",
+    "package.xml": manifest(),
     "robot/follower.py": PYTHON,
     "robot/__init__.py": "",
     "src/guard.cpp": CPP,

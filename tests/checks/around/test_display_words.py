@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
+from manifests import manifest
 
 from sambot_viz.checks import check
 from sambot_viz.checks.vocabulary import vocabulary
@@ -18,15 +19,7 @@ from sambot_viz.rviz.properties.texts import EnumProperty, PolicyProperty
 
 CONFIG, NAME = "rviz/robot.rviz", "config-property"
 FILES = {
-    "package.xml": """\
-<package format="3">
-  <name>robot</name>
-  <version>0.0.1</version>
-  <description>A robot.</description>
-  <maintainer email="me@example.org">me</maintainer>
-  <license>MIT</license>
-</package>
-""",
+    "package.xml": manifest(),
     "robot.urdf": '<robot name="r"><link name="base"/></robot>',
     CONFIG: """\
 Visualization Manager:

@@ -6,25 +6,19 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
+from manifests import manifest
 
 from sambot_viz.checks import check
 from sambot_viz.errors import Problem
 
-MANIFEST = """\
-<package format="3">
-  <name>robot</name>
-  <version>0.0.1</version>
-  <description>A robot.</description>
-  <maintainer email="me@example.org">me</maintainer>
-  <license>MIT</license>
-  <exec_depend>demo</exec_depend>
-  <exec_depend>launch_ros</exec_depend>
-  <exec_depend>robot_state_publisher</exec_depend>
-  <exec_depend>ros_gz_bridge</exec_depend>
-  <exec_depend>ros_gz_sim</exec_depend>
-  <exec_depend>xacro</exec_depend>
-</package>
-"""
+MANIFEST = manifest(
+    "demo",
+    "launch_ros",
+    "robot_state_publisher",
+    "ros_gz_bridge",
+    "ros_gz_sim",
+    "xacro",
+)
 LISTED = """\
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
+from manifests import manifest
 
 from sambot_viz.checks import check
 from sambot_viz.errors import Problem
@@ -37,15 +38,7 @@ global_costmap:
       robot_radius: 0.3
 """
 
-MANIFEST = """\
-<package format="3">
-  <name>robot</name>
-  <version>0.0.1</version>
-  <description>A robot.</description>
-  <maintainer email="me@example.org">me</maintainer>
-  <license>MIT</license>
-</package>
-"""
+MANIFEST = manifest()
 
 Copied = Callable[[str], Path]
 

@@ -6,19 +6,12 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
+from manifests import manifest
 
 from sambot_viz.checks import check
 from sambot_viz.errors import Problem
 
-MANIFEST = """\
-<package format="3">
-  <name>robot</name>
-  <version>0.0.1</version>
-  <description>A robot.</description>
-  <maintainer email="me@example.org">me</maintainer>
-  <license>MIT</license>
-</package>
-"""
+MANIFEST = manifest()
 TELEOP = """\
 teleop_twist_joy_node:
   ros__parameters:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
+from manifests import manifest
 
 from sambot_viz.checks import check
 from sambot_viz.errors import Problem
@@ -13,15 +14,7 @@ from sambot_viz.errors import Problem
 EKF = "config/ekf.yaml"
 PARAMETERS, MAP, SLAM = "config/params.yaml", "maps/map.yaml", "config/slam.yaml"
 FILES = {
-    "package.xml": """\
-<package format="3">
-  <name>robot</name>
-  <version>0.0.1</version>
-  <description>A robot.</description>
-  <maintainer email="me@example.org">me</maintainer>
-  <license>MIT</license>
-</package>
-""",
+    "package.xml": manifest(),
     PARAMETERS: """\
 tracker:
   ros__parameters:

@@ -5,18 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from manifests import manifest
 
 from sambot_viz.checks import check
 
-MANIFEST = """\
-<package format="3">
-  <name>robot</name>
-  <version>0.0.1</version>
-  <description>A robot.</description>
-  <maintainer email="me@example.org">me</maintainer>
-  <license>MIT</license>
-</package>
-"""
+MANIFEST = manifest()
 NAV2 = '<include file="$(find-pkg-share nav2_bringup)/launch/navigation_launch.py">'
 GAZEBO = '<include file="$(find-pkg-share ros_gz_sim)/launch/gz_sim.launch.py"/>'
 ARGUMENT = '<arg name="use_sim_time" value="{}"/>'

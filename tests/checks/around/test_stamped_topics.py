@@ -6,20 +6,13 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
+from manifests import manifest
 
 from sambot_viz.checks import check
 
 LAUNCH, PARAMETERS = "launch/robot.launch.py", "config/params.yaml"
 FILES = {
-    "package.xml": """\
-<package format="3">
-  <name>robot</name>
-  <version>0.0.1</version>
-  <description>A robot.</description>
-  <maintainer email="me@example.org">me</maintainer>
-  <license>MIT</license>
-</package>
-""",
+    "package.xml": manifest(),
     "robot.urdf": '<robot name="r"><link name="base_link"/></robot>',
     LAUNCH: """\
 import os
