@@ -91,6 +91,29 @@ def test_it_is_moved_or_written_where_it_belongs(
     assert not found(tmp_path, right, code)[0]
 
 
+def test_the_call_of_a_macro_gets_the_other_side(tmp_path: Path) -> None:
+    text = (
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+        '<link name="base"/>\n<xacro:macro name="wheel" params="prefix y">\n'
+        '<link name="${prefix}_link"><collision><geometry>'
+        '<sphere radius="0.1"/></geometry></collision></link>\n'
+        '<joint name="${prefix}_joint" type="continuous"><parent link="base"/>'
+        '<child link="${prefix}_link"/><origin xyz="0 ${y * 0.2} 0"/>'
+        '<axis xyz="0 1 0"/></joint>\n</xacro:macro>\n'
+        '<xacro:wheel prefix="drive_l" y="1"/>\n'
+        '<xacro:wheel prefix="drive_r" y="-1"/>\n</robot>'
+    )
+    file = tmp_path / "r.urdf.xacro"
+    wrong = text.replace('y="-1"', 'y="1"')
+    file.write_text(wrong, "utf-8")
+    (problem,) = [p for p in check(file) if p.code == "wheels-in-one-place"]
+    assert (problem.line, problem.hint) == (
+        8,
+        'write y="-1" in the call for drive_r_link',
+    )
+    assert apply_edits(problem.edits, wrong) == text
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [

@@ -44,6 +44,43 @@ def test_what_gazebo_does_not_know_in_a_sensor_has_the_right_word(
 
 
 @pytest.mark.parametrize("model", [URDF, SDF], ids=["URDF", "SDF"])
+@pytest.mark.parametrize("element", ["topic", "update_rate", "gz_frame_id"])
+def test_an_element_of_a_sensor_moves_out_of_another_one_there(
+    element: str, model: str, tmp_path: Path
+) -> None:
+    lines = model.format(SENSOR).splitlines(keepends=True)
+    at = next(n for n, line in enumerate(lines) if line.startswith(f"<{element}>"))
+    camera = next(n for n, line in enumerate(lines) if line.startswith("<camera>"))
+    line = lines.pop(at)
+    text = "".join([*lines[:camera], "\n", *lines[camera:]])
+    file = tmp_path / ("r.sdf" if model is SDF else "r.urdf")
+    wrong = text.replace("<camera>", f"<camera>\n{line}")
+    file.write_text(wrong, "utf-8")
+    (problem,) = [one for one in check(file) if one.severity != "info"]
+    assert problem.code == "element-misplaced"
+    file.write_text(apply_edits(problem.edits, wrong), "utf-8")
+    assert all(one.severity == "info" for one in check(file))
+
+
+def test_a_sensor_in_a_joint_belongs_into_the_link_of_the_joint(tmp_path: Path) -> None:
+    imu, torque = (
+        f'<sensor name="s" type="{kind}"/>' for kind in ("imu", "force_torque")
+    )
+    text = (
+        '<sdf version="1.8"><model name="r"><link name="a"/><link name="b"/>'
+        '<joint name="j" type="fixed"><parent>a</parent><child>b</child>{}</joint>'
+        "</model></sdf>"
+    )
+    file = tmp_path / "r.sdf"
+    file.write_text(text.format(torque), "utf-8")
+    assert all(one.severity == "info" for one in check(file))
+    file.write_text(text.format(imu), "utf-8")
+    (problem,) = [one for one in check(file) if one.severity != "info"]
+    assert problem.code == "gazebo-sensor"
+    assert '<link name="b">' in problem.hint
+
+
+@pytest.mark.parametrize("model", [URDF, SDF], ids=["URDF", "SDF"])
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [
@@ -182,3 +219,26 @@ def test_the_joint_of_a_mimic_that_does_not_exist_is_written_by_its_edit(
     (problem,) = (p for p in check(file) if p.code == "mimic-joint-unknown")
     right = text.replace("finger_left_joint", "finger_l_joint")
     assert apply_edits(problem.edits, text) == right
+
+
+OPTICAL = (
+    '<robot name="r"><link name="camera_link"/><link name="{0}"/>\n'
+    '<joint name="j" type="fixed"><parent link="camera_link"/><child link="{0}"/>\n'
+    '<origin rpy="{1}"/></joint>\n'
+    '<gazebo reference="camera_link"><sensor name="s" type="depth_camera">\n'
+    "<gz_frame_id>{0}</gz_frame_id></sensor></gazebo></robot>"
+)
+
+
+@pytest.mark.parametrize("frame", ["camera_optical", "camera_depth_frame"])
+@pytest.mark.parametrize("rpy", ["-1.5708 -1.5708 0", "0 -1.57 -1.57", "1.57 0 -1.57"])
+def test_an_optical_frame_looks_forward(frame: str, rpy: str, tmp_path: Path) -> None:
+    right = OPTICAL.format(frame, "-1.5708 0 -1.5708")
+    file = tmp_path / "r.urdf"
+    file.write_text(OPTICAL.format(frame, rpy), "utf-8")
+    (problem,) = [one for one in check(file) if one.severity != "info"]
+    assert (problem.code, problem.line) == ("optical-frame", 3)
+    assert apply_edits(problem.edits, file.read_text("utf-8")) == right
+    for fine in ("-1.5708 0 -1.5708", "0 0 0", "0 3.1416 1.5708", "0 0 1.5708"):
+        file.write_text(OPTICAL.format(frame, fine), "utf-8")
+        assert all(one.severity == "info" for one in check(file))

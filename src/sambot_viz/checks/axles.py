@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 
 from sambot_viz.checks.clues import guess
 from sambot_viz.checks.rule import Subject, axis_text, listed, number
+from sambot_viz.checks.side_of_call import other_side
 from sambot_viz.checks.wheel_clues import is_rotor, wheel_clues
 from sambot_viz.edits import overwrite_attribute, put_into, write_part
 from sambot_viz.errors import Edit, Fix, Problem
@@ -164,7 +165,7 @@ def wheels_in_one_place(subject: Subject) -> Iterator[Problem]:
         key = (joint.parent, joint.origin, places, is_wheel, moves)
         other = seen.setdefault(key, joint)
         if other is not joint and (is_wheel or _are_sides_of_one(other, joint)):
-            yield _in_one_place(other, joint, robot)
+            yield _in_one_place(other, joint, subject)
 
 
 def _are_sides_of_one(one: Joint, other: Joint) -> bool:
@@ -174,25 +175,32 @@ def _are_sides_of_one(one: Joint, other: Joint) -> bool:
     return not turned and (_are_sides(*names) or _are_sides(*reversed(names)))
 
 
-def _in_one_place(one: Joint, other: Joint, robot: Robot) -> Problem:
+def _in_one_place(one: Joint, other: Joint, subject: Subject) -> Problem:
+    robot = subject.robot
     x, y, z = one.origin.xyz
     written = _numbers((x, -y, z))
     wrong = _on_wrong_side(one, other)
     both = [f"{joint.name} {joint.child}".lower() for joint in (one, other)]
     element = "<pose>" if robot.language == "sdf" else "<origin>"
     parts = "links" if axle_of(one) is None else "wheels"
-    return guess(
+    side = f"{written} in its {element}"
+    if one.origin.place == other.origin.place:
+        side += ", or -1 for 1 in the call of the macro"
+    place, fix = other_side(one, other, subject.files) or (
         other.place,
-        "wheels-in-one-place",
-        f"the {parts} {one.child} and {other.child} are in the same place of "
-        f"{one.parent}, at {_numbers(one.origin.xyz)}: one hides the other",
         Fix(
-            f"give one of {one.name} and {other.name} the other side: {written} in its "
-            f"{element}, or -1 for 1 where a macro is given the side",
+            f"give one of {one.name} and {other.name} the other side: {side}",
             write_part(wrong.origin.place, "xyz", 1, f"{y}", number(-y))
             if one.origin.place != other.origin.place
             else (),
         ),
+    )
+    return guess(
+        place,
+        "wheels-in-one-place",
+        f"the {parts} {one.child} and {other.child} are in the same place of "
+        f"{one.parent}, at {_numbers(one.origin.xyz)}: one hides the other",
+        fix,
         {"place"}
         | (wheel_clues(robot, one) & {"name", "drive"})
         | {"sides" for names in (both, reversed(both)) if _are_sides(*names)},

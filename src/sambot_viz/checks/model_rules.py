@@ -25,6 +25,7 @@ from sambot_viz.checks.mesh_files import (
     meshes_of_wrong_size,
     unusable_meshes,
 )
+from sambot_viz.checks.optical_frames import optical_frames
 from sambot_viz.checks.physics import (
     impossible_inertia,
     inertia_on_root,
@@ -88,6 +89,7 @@ RULES: tuple[Rule, ...] = (
     zero_mass,
     masses_in_grams,
     invisible_materials,
+    optical_frames,
     sensor_words,
     gazebo_words,
     beside_sensors,

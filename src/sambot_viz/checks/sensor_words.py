@@ -11,8 +11,8 @@ from functools import cache
 
 from sambot_viz.checks.rule import Subject
 from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.edits import rename_element, write
-from sambot_viz.errors import Problem
+from sambot_viz.edits import move_before, rename_element, write
+from sambot_viz.errors import Fix, Problem
 from sambot_viz.robot.findings import tag_text
 from sambot_viz.robot.sdf.check_elements import value_fault
 from sambot_viz.robot.sdf.elements import ElementType, Values, model_type
@@ -64,6 +64,8 @@ def sensor_words(subject: Subject) -> Iterator[Problem]:
             while stack:
                 element, kind, above = stack.pop()
                 yield from _misspelt(element, kind, sensor)
+                if element is not sensor:
+                    yield from _displaced(element, kind, sensor)
                 if subject.robot.language == "urdf" and not _is_exchanged(
                     element, above
                 ):
@@ -145,6 +147,34 @@ def _misspelt(
             f"<{child.tag}> of {tag_text(sensor)} is not known; did you mean "
             f"<{right}>? Gazebo ignores it",
             rename_element(child.place, child.tag, right, f"write <{right}>"),
+        )
+
+
+def _displaced(
+    element: Element, kind: ElementType, sensor: Element
+) -> Iterator[Problem]:
+    """Report children that only the sensor around knows, and does not have."""
+    of_sensor = (*model_type().children["link"].children["sensor"].children, *_BESIDE)
+    for child in element.children if not kind.open else ():
+        is_its_own = child.tag in kind.children
+        if (
+            is_its_own
+            or child.tag not in of_sensor
+            or sensor.find(child.tag) is not None
+        ):
+            continue
+        is_next = element in sensor.children
+        yield Problem.at(
+            child.place,
+            "warning",
+            "element-misplaced",
+            f"<{child.tag}> means nothing in <{element.tag}>: it belongs directly in "
+            f"{tag_text(sensor)}, and Gazebo ignores it here",
+            Fix(
+                f"move <{child.tag}> out of <{element.tag}>, directly into "
+                f"{tag_text(sensor)}",
+                move_before(child.place, element.place) if is_next else (),
+            ),
         )
 
 

@@ -15,7 +15,7 @@ def gazebo_parts(document: Element, depth: int = 0) -> tuple[Element, ...]:
     """Copy the <gazebo> and <ros2_control> elements of a model.
 
     Plugins and sensors of an SDF model get the form that they have in URDF: a <gazebo>
-    around each, whose `reference` names the link of a sensor.
+    around each, whose `reference` names the link or the joint of a sensor.
 
     Args:
         document: root element, expanded by xacro.
@@ -32,14 +32,14 @@ def gazebo_parts(document: Element, depth: int = 0) -> tuple[Element, ...]:
             found.append(_wrapped(child))
         elif child.tag in _OUTER and depth < limits.NESTED_MODELS.value:
             found += gazebo_parts(child, depth + 1)
-        elif child.tag == "link":
+        elif child.tag in ("link", "joint"):
             found += (_wrapped(s, child) for s in child.find_all("sensor"))
     return tuple(found)
 
 
-def _wrapped(element: Element, link: Element | None = None) -> Element:
+def _wrapped(element: Element, carrier: Element | None = None) -> Element:
     """Wrap a part of an SDF model in the <gazebo> that URDF puts around it."""
-    attributes = {} if link is None else {"reference": link.get("name") or ""}
+    attributes = {} if carrier is None else {"reference": carrier.get("name") or ""}
     return Element("gazebo", attributes, element.place, [_copy(element)])
 
 

@@ -46,9 +46,8 @@ _LIMITS = (("range", "min", "max"), ("clip", "near", "far"))
 
 
 def sensors_without_link(robot: Robot) -> Iterator[Problem]:
-    """Report sensors of a URDF that belong to no link, or to a joint."""
-    if robot.language == "sdf":
-        return
+    """Report sensors that belong to no link, or to a joint."""
+    in_sdf = robot.language == "sdf"
     for part in robot.gazebo:
         if part.tag != "gazebo":
             # <ros2_control> has a separate kind of sensor.
@@ -56,22 +55,24 @@ def sensors_without_link(robot: Robot) -> Iterator[Problem]:
         name = part.get("reference")
         joint = robot.joints.get(name or "")
         for sensor in part.find_all("sensor"):
-            if name is None:
+            if name is None and not in_sdf:
                 link = _frame_of(robot, sensor)
                 yield _without_link(part, sensor, link)
             elif (
                 joint is not None
-                and name not in robot.links
+                and (in_sdf or name not in robot.links)
                 and sensor.get("type") not in _OF_JOINTS
             ):
-                place = part.place
+                place = sensor.place if in_sdf else part.place
                 yield Problem.at(
                     place,
                     "warning",
                     "gazebo-sensor",
                     f"{name} is a joint ({where(joint.place, place)}), and a joint has "
                     f"no sensor {_named(sensor)}: Gazebo leaves it out",
-                    f'write reference="{joint.child}", the link of that joint',
+                    f'move the whole <sensor> into <link name="{joint.child}">'
+                    if in_sdf
+                    else f'write reference="{joint.child}", the link of that joint',
                 )
 
 

@@ -53,11 +53,20 @@ def sensor_node(sensor: Element) -> Iterator[RunningNode]:
     if any("libgazebo_" in (c.get("filename") or "") for c in sensor.children):
         return
     kind = (sensor.get("type") or "").removesuffix("_sensor")
-    yield _node(SENSOR, kind, sensor.get("name") or "", sensor)
+    # A topic at a wrong place in it is a separate problem.
+    topics = [each for each in sensor.iter() if each.tag == "topic"]
+    yield _node(SENSOR, kind, sensor.get("name") or "", sensor, topics)
 
 
-def _node(package: str, program: str, name: str, element: Element) -> RunningNode:
-    given = tuple(_given(c.tag, c.text, c.place) for c in element.children)
+def _node(
+    package: str,
+    program: str,
+    name: str,
+    element: Element,
+    more: Sequence[Element] = (),
+) -> RunningNode:
+    elements = (*element.children, *more)
+    given = tuple(_given(c.tag, c.text, c.place) for c in elements)
     # Gazebo reads the first of two elements.
     return possible_node(package, program, name, "/", given[::-1], element.place)
 

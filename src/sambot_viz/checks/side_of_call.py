@@ -1,0 +1,83 @@
+"""Find the call of a macro that gives a wheel the side of its twin."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from sambot_viz.edits import source_of
+from sambot_viz.errors import Fix, Place
+from sambot_viz.robot.parts import Joint
+from sambot_viz.robot.xacro.macro_texts import (
+    CallText,
+    Written,
+    calls_of,
+    macro_around,
+    sources,
+)
+
+_NAME = re.compile(r"[A-Za-z_]\w*")
+_SIGN = re.compile(r"[+-]?1(?:\.0*)?")
+_RIGHT = re.compile(r"right|(?<![a-z])[fbrm]?r[fbr]?(?![a-z])", re.IGNORECASE)
+
+
+def other_side(
+    one: Joint, other: Joint, files: Sequence[str]
+) -> tuple[Place, Fix] | None:
+    """Return the call of one of two joints in the same place, and its fix, or None.
+
+    Args:
+        one: a joint.
+        other: one from another call of the same macro.
+        files: those of the model, as the user would write them.
+    """
+    place = one.origin.place
+    source = source_of(place.file) if place is not None else None
+    if place is None or source is None or place != other.origin.place:
+        return None
+    macro = macro_around(place.file, source, source.offset(place))
+    tag = source.tag(source.offset(place))
+    if macro is None or tag is None or "xyz" not in tag.values:
+        return None
+    used = set(_NAME.findall(source.text[slice(*tag.values["xyz"])]))
+    calls = calls_of(macro.name, sources(files))
+    both = [_call_of(joint, calls) for joint in (one, other)]
+    if None in both or both[0] is both[1]:
+        return None
+    wrong = one if (one.origin.xyz[1] > 0) == _is_right(one) else other
+    call = both[wrong is other]
+    if call is None:
+        return None
+    given = _sides(call, used)
+    # Where x has a sign too, the name says which of the two is across.
+    given = [g for g in given if "y" in g[0].lower()] or given
+    if len(given) != 1:
+        return None
+    name, value = given[0]
+    new = value.text.lstrip("+-")
+    new = new if value.text.startswith("-") else f"-{new}"
+    hint = f'write {name}="{new}" in the call for {wrong.child}'
+    return call.tag.place, Fix(hint, (value.edit(new),))
+
+
+def _is_right(joint: Joint) -> bool:
+    return _RIGHT.search(f"{joint.name} {joint.child}".replace("_", " ")) is not None
+
+
+def _call_of(joint: Joint, calls: Sequence[CallText]) -> CallText | None:
+    """Return the only call with a value that is a part of the joint's name."""
+    found = [
+        call
+        for call in calls
+        if any(len(v.text) > 1 and v.text in joint.name for v in call.values.values())
+    ]
+    return found[0] if len(found) == 1 else None
+
+
+def _sides(call: CallText, used: set[str]) -> list[tuple[str, Written]]:
+    """Return the parameters of a call for the place of a part that are 1 or -1."""
+    return [
+        (name, value)
+        for name, value in call.values.items()
+        if name in used and _SIGN.fullmatch(value.text)
+    ]
