@@ -124,7 +124,7 @@ NO_LIMITS = {
         robot/packages/package_index.py _MAX_UP
         checks/consequences.py _MOST
         checks/proven.py _MOST
-        checks/rewritten.py _DEEPEST
+        checks/model/rewritten.py _DEEPEST
         robot/xacro/at_calls.py _DEEPEST
         robot/xacro/diagnose/failing_values.py _DEEPEST
         robot/xacro/diagnose/text_for_number.py _DEEPEST
@@ -132,8 +132,8 @@ NO_LIMITS = {
     """,
     "meaning: a number of ROS, of a check, of a type or of what moves": """
         checks/around/files/parameters.py _MOST_NAMES
-        checks/proportion.py _MOST
-        checks/slips.py _SMALLEST_LIMIT _LARGEST_LIMIT
+        checks/model/proportion.py _MOST
+        checks/model/slips.py _SMALLEST_LIMIT _LARGEST_LIMIT
         displays/data/interactive_markers/controls.py LARGEST
         frames/history.py _DEEPEST
         panels/drive_panel.py MOST_LINEAR MOST_ANGULAR

@@ -54,7 +54,7 @@ def test_a_right_package_needs_no_module_about_what_is_wrong(repository: Path) -
     assert f"{AROUND}rules" in loaded
     late = {
         "re2",
-        "sambot_viz.checks.rewritten",
+        "sambot_viz.checks.model.rewritten",
         "sambot_viz.robot.slips.follow_ups",
         "sambot_viz.rviz.yaml.writer",
         f"{AROUND}files.python_repair",

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from sambot_viz.checks import check, check_robot
-from sambot_viz.checks.mesh_files import MeshFiles
+from sambot_viz.checks.model.mesh_files import MeshFiles
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import rotation_from_rpy
 from sambot_viz.robot.model import load_robot

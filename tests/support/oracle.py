@@ -37,7 +37,7 @@ from xacro_memory import XacroMemory
 from sambot_viz import bundled
 from sambot_viz.checks import check
 from sambot_viz.checks.checked import check_all
-from sambot_viz.checks.mesh_files import MeshFiles
+from sambot_viz.checks.model.mesh_files import MeshFiles
 from sambot_viz.edits import source_of
 from sambot_viz.errors import Problem, UsageError
 from sambot_viz.robot.packages.package_model import MODEL_ENDINGS

@@ -10,37 +10,35 @@ from typing import TYPE_CHECKING
 
 from sambot_viz.advice import with_edits
 from sambot_viz.checks.around import names_that_must_meet
-from sambot_viz.checks.axles import wheels_across_their_axles, wheels_in_one_place
 from sambot_viz.checks.consequences import without_consequences
 from sambot_viz.checks.exchanged_joint import exchanged_joint
-from sambot_viz.checks.exchanged_lengths import exchanged_lengths
-from sambot_viz.checks.falling import falls_over
-from sambot_viz.checks.flat_wheels import flat_wheels
-from sambot_viz.checks.ground import wheels_off_the_ground
 from sambot_viz.checks.launch_text import launch_text_as_yaml
-from sambot_viz.checks.lengths import lengths_in_another_unit
-from sambot_viz.checks.masses import masses_in_grams
-from sambot_viz.checks.mesh_files import (
+from sambot_viz.checks.model.axles import wheels_across_their_axles, wheels_in_one_place
+from sambot_viz.checks.model.exchanged_lengths import exchanged_lengths
+from sambot_viz.checks.model.falling import falls_over
+from sambot_viz.checks.model.flat_wheels import flat_wheels
+from sambot_viz.checks.model.ground import wheels_off_the_ground
+from sambot_viz.checks.model.lengths import lengths_in_another_unit
+from sambot_viz.checks.model.masses import masses_in_grams
+from sambot_viz.checks.model.mesh_files import (
     MeshFiles,
     meshes_of_wrong_size,
     unusable_meshes,
 )
-from sambot_viz.checks.optical_frames import optical_frames
-from sambot_viz.checks.physics import (
+from sambot_viz.checks.model.optical_frames import optical_frames
+from sambot_viz.checks.model.physics import (
     impossible_inertia,
     inertia_on_root,
     missing_inertia,
     zero_mass,
 )
-from sambot_viz.checks.proportion import lengths_out_of_proportion
-from sambot_viz.checks.proven import proven
-from sambot_viz.checks.rule import Rule, Subject
-from sambot_viz.checks.sensor_words import (
+from sambot_viz.checks.model.proportion import lengths_out_of_proportion
+from sambot_viz.checks.model.sensor_words import (
     beside_sensors,
     gazebo_words,
     sensor_words,
 )
-from sambot_viz.checks.slips import (
+from sambot_viz.checks.model.slips import (
     invisible_materials,
     limits_in_degrees,
     names_that_differ_in_case,
@@ -48,8 +46,10 @@ from sambot_viz.checks.slips import (
     rpy_in_degrees,
     sizes_not_positive,
 )
-from sambot_viz.checks.unused_macros import unused_macros
-from sambot_viz.checks.wheel_twins import unlike_twins
+from sambot_viz.checks.model.unused_macros import unused_macros
+from sambot_viz.checks.model.wheel_twins import unlike_twins
+from sambot_viz.checks.proven import proven
+from sambot_viz.checks.rule import Rule, Subject
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.xacro.at_calls import at_calls

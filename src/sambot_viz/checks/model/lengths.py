@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from sambot_viz.checks.clues import Clues, guess
+from sambot_viz.checks.model.volumes import volume_of
 from sambot_viz.checks.rule import Subject, number
-from sambot_viz.checks.volumes import volume_of
 from sambot_viz.errors import Edit, Fix, Problem
 from sambot_viz.robot.model import Robot, shapes_of
 from sambot_viz.robot.parts import (
@@ -24,7 +24,7 @@ from sambot_viz.robot.parts import (
 )
 
 if TYPE_CHECKING:
-    from sambot_viz.checks.rewritten import Rewriting
+    from sambot_viz.checks.model.rewritten import Rewriting
 
 LENGTHS = ("size", "radius", "length")
 """Attributes and elements with the lengths of a shape."""
@@ -76,7 +76,7 @@ def lengths_in_another_unit(subject: Subject) -> Iterator[Problem]:
     lengths = _lengths_of(subject.robot)
     if lengths is None:
         return
-    from sambot_viz.checks.rewritten import Rewriting
+    from sambot_viz.checks.model.rewritten import Rewriting
 
     rewriting = Rewriting(subject.files, lambda length: length * lengths.metres)
     edits: dict[tuple[str, tuple[float, ...]], list[Edit]] = {}

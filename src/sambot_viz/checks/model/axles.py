@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterable, Iterator
 
 from sambot_viz.checks.clues import guess
+from sambot_viz.checks.model.side_of_call import other_side
 from sambot_viz.checks.rule import Subject, axis_text, listed, number
-from sambot_viz.checks.side_of_call import other_side
 from sambot_viz.checks.wheel_clues import is_rotor, wheel_clues
 from sambot_viz.edits import overwrite_attribute, put_into, write_part
 from sambot_viz.errors import Edit, Fix, Problem

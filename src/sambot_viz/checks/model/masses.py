@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sambot_viz.checks.clues import Clues, guess, is_written_whole
-from sambot_viz.checks.lengths import written_lengths
+from sambot_viz.checks.model.lengths import written_lengths
+from sambot_viz.checks.model.volumes import volume_of
 from sambot_viz.checks.rule import Subject, number
-from sambot_viz.checks.volumes import volume_of
 from sambot_viz.errors import Problem
 from sambot_viz.robot.parts import Link
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.checks.axles import axle_of, only_rolls
+from sambot_viz.checks.model.axles import axle_of, only_rolls
 from sambot_viz.checks.rule import Subject, listed
 from sambot_viz.edits import overwrite_attribute
 from sambot_viz.errors import Fix, Problem

@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from sambot_viz.checks.axles import wheels_in_one_place
 from sambot_viz.checks.clues import guess
+from sambot_viz.checks.model.axles import wheels_in_one_place
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.checks.wheel_clues import is_rotor
 from sambot_viz.errors import Problem

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 
 from sambot_viz.checks.clues import Clues, guess
-from sambot_viz.checks.lengths import written_lengths
+from sambot_viz.checks.model.lengths import written_lengths
 from sambot_viz.checks.rule import Subject, number
 from sambot_viz.edits import together, write_attribute
 from sambot_viz.errors import Fix, Place, Problem
@@ -98,7 +98,7 @@ def _rpy(
         return
     if not all(_is_round(v) for v in origin.rpy):
         return
-    from sambot_viz.checks.rewritten import Rewriting
+    from sambot_viz.checks.model.rewritten import Rewriting
 
     written = " ".join(number(v) for v in origin.rpy)
     corrected = " ".join(number(math.radians(v)) for v in origin.rpy)

@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 from sambot_viz.checks.clues import Clues, guess, is_measured, is_written_whole
-from sambot_viz.checks.lengths import (
+from sambot_viz.checks.model.lengths import (
     LENGTHS,
     UNITS,
     is_lighter_than_foam,
@@ -244,7 +244,7 @@ def _single(
 def _in_metres(
     subject: Subject, element: _Written, usual: float, factor: float
 ) -> tuple[Edit, ...]:
-    from sambot_viz.checks.rewritten import Rewriting
+    from sambot_viz.checks.model.rewritten import Rewriting
 
     rewriting = Rewriting(
         subject.files, lambda value: value * factor if abs(value) > usual else value

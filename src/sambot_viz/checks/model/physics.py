@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from sambot_viz.checks.around.place import where
-from sambot_viz.checks.inertia_repair import repaired
+from sambot_viz.checks.model.inertia_repair import repaired
+from sambot_viz.checks.model.unused_macros import links_without_mass, unused_inertia
 from sambot_viz.checks.rule import Subject, listed, number
-from sambot_viz.checks.unused_macros import links_without_mass, unused_inertia
 from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.geometry import ORIGIN, Vector3
 from sambot_viz.robot.parts import Box, Cylinder, Geometry, Inertial, Link, Sphere

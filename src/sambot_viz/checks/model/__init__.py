@@ -1,0 +1,1 @@
+"""Rules about the model itself: its shapes, masses, wheels and sensors."""
