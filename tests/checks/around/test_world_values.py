@@ -143,3 +143,43 @@ def test_a_model_that_the_package_has_is_found(world: Path) -> None:
     config.parent.mkdir(parents=True)
     config.write_text("<model/>")
     assert problems(world) == []
+
+
+SPAWN = """
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    world = os.path.join(get_package_share_directory("room"), "worlds", "room.sdf")
+    spawn = Node(package="ros_gz_sim", executable="create",
+                 arguments=["-x", "{}", "-y", "0", "-z", "0.6"])
+    return LaunchDescription([ExecuteProcess(cmd=["gz", "sim", world]), spawn])
+"""
+
+
+@pytest.mark.parametrize(
+    ("shape", "inside", "beside"),
+    [
+        ("<box><size>1 1 1</size></box>", "2.4", "2.6"),
+        ("<cylinder><radius>0.5</radius><length>1</length></cylinder>", "1.6", "1.4"),
+        ("<sphere><radius>0.5</radius></sphere>", "2", "2.6"),
+        ("<plane><normal>0 0 1</normal></plane>", "", "2"),
+    ],
+)
+def test_a_robot_is_spawned_beside_what_stands_there(
+    world: Path, shape: str, inside: str, beside: str
+) -> None:
+    model = (
+        '<model name="crate"><static>true</static>\n<pose>2 0 0.5 0 0 0</pose>'
+        f'<link name="l"><collision name="c"><geometry>{shape}</geometry></collision>'
+        "</link></model>\n  </world>"
+    )
+    world.write_text(FILES[WORLD].replace("</world>", model), "utf-8")
+    head = FILES["launch/sim.launch.py"].split("\n\n\ndef")[0]
+    launch = world.parents[1] / "launch/sim.launch.py"
+    for x, said in ((inside, ["world-value"]), (beside, [])):
+        if x:
+            launch.write_text(head + SPAWN.format(x), "utf-8")
+            found = [p for p in check(world.parents[1]) if p.code == "world-value"]
+            assert [p.code for p in found] == said
+            assert all("crate" in p.message for p in found)

@@ -36,6 +36,7 @@ from sambot_viz.checks.around.gazebo.generations import (
     started_twice,
     xacro_py,
 )
+from sambot_viz.checks.around.gazebo.spawned_into import spawned_into
 from sambot_viz.checks.around.gazebo.wheels import wheel_sizes_of_controllers
 from sambot_viz.checks.around.gazebo.world_systems import (
     missing_systems,
@@ -389,6 +390,7 @@ OF_FILES: tuple[Check, ...] = (
     values_of_worlds,
     numbers_of_worlds,
     planes_that_fall,
+    spawned_into,
     suns_from_below,
     models_of_classic,
 )
