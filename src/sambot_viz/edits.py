@@ -338,21 +338,28 @@ def write_as_text(place: Place, name: str) -> tuple[Edit, ...]:
         place: where the element begins.
         name: the attribute.
     """
-    found = _tag_at(place)
-    if found is None or name not in found[1].values:
+    edits, found = delete_attribute(place, name), _tag_at(place)
+    if found is None or not edits:
         return ()
     source, tag = found
-    start, value = tag.names[name].start, tag.values[name]
-    before = source.text[:start]
-    gone = Extent(len(before.rstrip()), value.end + 1)
-    text = source.text[slice(*value)]
-    edits = [source.edit(place, gone, "")]
+    text = source.text[slice(*tag.values[name])]
     if tag.is_empty:
         element = source.text[slice(*tag.name)]
         end = Extent(tag.rest, tag.end)
         return (*edits, source.edit(place, end, f">{text}</{element}>"))
     inside = Extent(tag.end, source.text.find("<", tag.end))
     return (*edits, source.edit(place, inside, text))
+
+
+def delete_attribute(place: Place, name: str) -> tuple[Edit, ...]:
+    """Return the edit that deletes an attribute, with the blanks before it."""
+    found = _tag_at(place)
+    if found is None or name not in found[1].values:
+        return ()
+    source, tag = found
+    before = source.text[: tag.names[name].start]
+    gone = Extent(len(before.rstrip()), tag.values[name].end + 1)
+    return (source.edit(place, gone, ""),)
 
 
 def copy_as(

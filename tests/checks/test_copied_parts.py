@@ -41,6 +41,27 @@ CONTROL = """<ros2_control name="all" type="system"><hardware>
 """
 STATE = '<state_interface name="position"/>'
 FULL = CONTROL.format("").replace('right_joint">', f'right_joint">{STATE}')
+TRANSMISSION = """<transmission><plugin>t/Simple</plugin>
+<joint name="{}" role="r"/></transmission>
+"""
+DRIVE = """<gazebo><plugin filename="libgazebo_ros_diff_drive.so"
+name="d"/>
+</gazebo>"""
+PLUGIN = """<gazebo><plugin name="p" filename="libgazebo_ros_p3d.so">
+<body_name>{}</body_name><ros><remapping>{}</remapping></ros></plugin></gazebo>"""
+
+
+def transmissions(second: str) -> str:
+    inner = TRANSMISSION.format("left_joint") + TRANSMISSION.format(second)
+    return FULL.replace("</ros2_control>", f"{inner}</ros2_control>")
+
+
+def hardware(second: str) -> str:
+    inner = "".join(
+        f'<param name="wheel_{number}">{name}</param>'
+        for number, name in enumerate(("left_joint", second))
+    )
+    return FULL.replace("</hardware>", f"{inner}</hardware>")
 
 
 def sides(y: str = "-0.1", axis: str = "0 0 1", kind: str = "revolute") -> str:
@@ -77,8 +98,41 @@ def found(tmp_path: Path, text: str, code: str) -> tuple[list[Problem], Path]:
             sides() + FULL,
             "control-interface",
         ),
+        (
+            sides() + transmissions("left_joint"),
+            sides() + transmissions("right_joint"),
+            "control-interface",
+        ),
+        (
+            sides() + hardware("left_joint"),
+            sides() + hardware("right_joint"),
+            "control-interface",
+        ),
+        (
+            sides() + FULL + '<ros2_control name="all" type="system"/>',
+            sides() + FULL + '<ros2_control name="all2" type="system"/>',
+            "control-interface",
+        ),
+        (
+            CAMERA + DRIVE.replace("<gazebo>", '<gazebo reference="camera">'),
+            CAMERA + DRIVE,
+            "gazebo-plugin",
+        ),
+        (
+            CAMERA + PLUGIN.format("camera_link", "odom:=truth"),
+            CAMERA + PLUGIN.format("camera", "odom:=truth"),
+            "gazebo-plugin",
+        ),
+        (
+            CAMERA + PLUGIN.format("camera", "odom=truth"),
+            CAMERA + PLUGIN.format("camera", "odom:=truth"),
+            "gazebo-plugin",
+        ),
     ],
-    ids=["plugin of a sensor", "frame of a sensor", "joint twice", "no state"],
+    ids=(
+        "plugin of a sensor,frame of a sensor,joint twice,no state,transmission,"
+        "hardware,two systems,plugin of a model,link of a plugin,remapping"
+    ).split(","),
 )
 def test_it_is_moved_or_written_where_it_belongs(
     wrong: str, right: str, code: str, tmp_path: Path

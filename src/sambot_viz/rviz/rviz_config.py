@@ -236,8 +236,11 @@ class _NewPanel:
 
 def _report_duplicates(node: Collection, findings: ConfigFindings) -> None:
     seen: set[str] = set()
+    joined = _first_of_second(node)
+    if joined is not None:
+        findings.warn_without_dash(joined)
     for entry in node.entries:
-        if entry.key is not None and entry.key in seen:
+        if joined is None and entry.key is not None and entry.key in seen:
             findings.warn(
                 "config-duplicate-key",
                 entry.value,
@@ -247,6 +250,19 @@ def _report_duplicates(node: Collection, findings: ConfigFindings) -> None:
         seen.add(entry.key or "")
         if isinstance(entry.value, Collection):
             _report_duplicates(entry.value, findings)
+
+
+def _first_of_second(node: Collection) -> Entry | None:
+    """Return the first key of the second of two items that a lost dash has made one.
+
+    RViz sorts the keys of an item, so a new item begins where their order does.
+    """
+    keys = [entry.key or "" for entry in node.entries]
+    if not isinstance(node, Map) or keys.count("Class") != 2:
+        return None
+    twice = next(at for at, key in enumerate(keys) if key in keys[:at])
+    starts = (at for at in range(1, twice + 1) if keys[at] < keys[at - 1])
+    return node.entries[next(starts, twice)]
 
 
 def _kind(node: Map) -> str:

@@ -102,6 +102,25 @@ def package(tmp_path: Path) -> Path:
     return tmp_path / "robot"
 
 
+def test_a_view_follows_a_link_that_exists(package: Path) -> None:
+    path = package / CONFIG
+    path.write_text(path.read_text().replace("<Fixed Frame>", "bsae"))
+    (problem,) = check(package)
+    assert (problem.code, problem.hint) == ("frame-unknown", "write base")
+    edited = edited_files(problem.edits)[str(path)].decode()
+    assert "Target Frame: base\n" in edited
+
+
+@pytest.mark.parametrize("first", ["Alpha: 1\n      ", ""])
+def test_a_lost_dash_is_written_again(package: Path, first: str) -> None:
+    path = package / CONFIG
+    item = f"- {first}Class: rviz_default_plugins/Map"
+    right = FILES[CONFIG].replace("- Class: rviz_default_plugins/Map", item)
+    path.write_text(right.replace(item, f"  {item[2:]}"))
+    (problem,) = [p for p in check(package) if p.code == "config-duplicate-key"]
+    assert edited_files(problem.edits)[str(path)].decode() == right
+
+
 @pytest.mark.parametrize(
     ("right", "wrong", "code"),
     [

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+from sambot_viz.checks.around.control.copied import control_twice, joints_twice
 from sambot_viz.checks.around.control.words import words_of_control
 from sambot_viz.checks.around.gazebo.classic_plugins import (
     outside_of_sensors,
@@ -15,6 +16,10 @@ from sambot_viz.checks.around.gazebo.classic_plugins import (
     words_of_plugins,
 )
 from sambot_viz.checks.around.gazebo.drives import misspelt_elements, wrong_sides
+from sambot_viz.checks.around.gazebo.plugin_parts import (
+    plugins_of_links,
+    words_in_plugins,
+)
 from sambot_viz.checks.around.gazebo.sensors import (
     frames_of_sensors,
     lidars_of_the_other,
@@ -31,7 +36,6 @@ from sambot_viz.checks.around.gazebo.systems import (
 )
 from sambot_viz.checks.around.gazebo.wheels import wheel_sizes
 from sambot_viz.checks.around.joint_names import (
-    joints_twice,
     unknown_joints,
     unknown_references,
 )
@@ -57,8 +61,11 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
     frames_of_sensors,
     unknown_libraries,
     outside_of_sensors,
+    plugins_of_links,
+    words_in_plugins,
     words_of_plugins,
     words_of_control,
+    control_twice,
 )
 """The rules."""
 

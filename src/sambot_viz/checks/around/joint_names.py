@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
+from sambot_viz.checks.around.control.copied import JOINTS
 from sambot_viz.checks.around.files.gazebo import Fact, facts, plugins
 from sambot_viz.checks.around.gazebo.wheel_joints import Side, meant_wheel, side_in
 from sambot_viz.checks.around.place import where
@@ -19,21 +20,6 @@ from sambot_viz.robot.xml.element import Element
 if TYPE_CHECKING:
     from sambot_viz.checks.around.surroundings import Surroundings
 
-_JOINTS = (
-    "left_joint",
-    "leftJoint",
-    "right_joint",
-    "rightJoint",
-    "joint_name",
-    "jointName",
-    "front_left_joint",
-    "front_right_joint",
-    "back_left_joint",
-    "back_right_joint",
-    "left_steering_joint",
-    "right_steering_joint",
-    "steering_joint",
-)
 _OTHER_SIDE = {
     "left_wheel_names": "right_wheel_names",
     "right_wheel_names": "left_wheel_names",
@@ -47,34 +33,6 @@ _LIKE_NAME, _LIKE_LETTERS = 0.7, 0.9
 def unknown_joints(robot: Robot) -> Iterator[Problem]:
     """Report joints of plugins and ros2_control that the model does not have."""
     return _unknown_joints(robot, _named_joints(robot))
-
-
-def joints_twice(robot: Robot) -> Iterator[Problem]:
-    """Report a joint that a plugin names twice, and the one that it leaves out."""
-    for plugin in plugins(robot.gazebo):
-        for tag in _JOINTS if plugin.generation is not None else ():
-            named = plugin.all(tag)
-            for at, fact in enumerate(named):
-                first = next(f for f in named if f.value == fact.value)
-                joint = robot.joints.get(fact.value)
-                if first is named[at] or joint is None:
-                    continue
-                said = {other.value for t in _JOINTS for other in plugin.all(t)}
-                free = [
-                    each.name
-                    for each in robot.joints.values()
-                    if each.type == joint.type and each.mimic is None
-                    if each.name not in said
-                ]
-                if len(free) == 1:
-                    yield Problem.at(
-                        fact.place,
-                        "warning",
-                        "gazebo-joint",
-                        f"the plugin {plugin.filename} has {fact.value} twice (see "
-                        f"{where(first.place, fact.place)}), and {free[0]} never",
-                        write(fact.place, fact.value, free[0]),
-                    )
 
 
 def joints_of_controllers(around: Surroundings) -> Iterator[Problem]:
@@ -147,7 +105,7 @@ class _User(NamedTuple):
 def _named_joints(robot: Robot) -> Iterator[tuple[Fact, _User]]:
     for plugin in plugins(robot.gazebo):
         if plugin.generation is not None:
-            named = [(tag, fact) for tag in _JOINTS for fact in plugin.all(tag)]
+            named = [(tag, fact) for tag in JOINTS for fact in plugin.all(tag)]
             for tag, fact in named:
                 taken = {other.value for _, other in named if other is not fact}
                 yield (

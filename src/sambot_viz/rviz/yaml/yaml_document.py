@@ -53,6 +53,22 @@ class ConfigFindings(Findings):
             problem = Problem.at(where, "warning", code, message, fix)
             self.note(replace(problem, line=line, column=column))
 
+    def warn_without_dash(self, entry: Entry) -> None:
+        """Add a warning at the first key of an item whose dash is missing."""
+        value, key = entry.value, entry.key or ""
+        if value.span is None:
+            return
+        line = _line_of_key(value)
+        hint = f'write "- " before {key} (line {line}) in place of two blanks'
+        fix: Fix | str = hint
+        where: Place | str | None = self._file
+        if self._file is not None:
+            where = Place(self._file, line)
+            fix = write(where, f"  {key}:", f"- {key}:", hint=hint)
+        message = "two items of a list are one here, and the first is lost"
+        problem = Problem.at(where, "warning", "config-duplicate-key", message, fix)
+        self.note(replace(problem, line=line))
+
     def warn_key(self, entry: Entry, message: str, right: str) -> None:
         """Add a warning at a key that was meant to be another.
 
@@ -64,9 +80,7 @@ class ConfigFindings(Findings):
         value, key = entry.value, entry.key or ""
         if value.span is None:
             return
-        # What a map or a list has begins in the line below its key.
-        is_below = not isinstance(value, Scalar) and not value.flow
-        line = value.span.line - is_below
+        line = _line_of_key(value)
         fix: Fix | str = f"write {right}"
         where: Place | str | None = self._file
         if self._file is not None:
@@ -74,6 +88,14 @@ class ConfigFindings(Findings):
             fix = write(where, key, right)
         problem = Problem.at(where, "warning", "config-property", message, fix)
         self.note(replace(problem, line=line))
+
+
+def _line_of_key(value: Node) -> int:
+    """Return the line of the key of a value that is in a file."""
+    if value.span is None:
+        raise ValueError("the value is in no file")
+    # What a map or a list has begins in the line below its key.
+    return value.span.line - (not isinstance(value, Scalar) and not value.flow)
 
 
 class Document:

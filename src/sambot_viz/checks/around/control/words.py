@@ -1,10 +1,9 @@
-"""Check words of <ros2_control>: elements, interfaces, hardware and double joints."""
+"""Check words of <ros2_control>: elements, interfaces and hardware."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from sambot_viz.checks.around.place import where
 from sambot_viz.edits import (
     move_before,
     put_into,
@@ -12,7 +11,7 @@ from sambot_viz.edits import (
     write_as_text,
     write_attribute,
 )
-from sambot_viz.errors import Fix, Problem, nearest
+from sambot_viz.errors import Fix, Problem
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.slips.misspelt import find_slips
 from sambot_viz.robot.slips.slip_words import slip_in_words
@@ -77,7 +76,6 @@ def words_of_control(robot: Robot) -> Iterator[Problem]:
                     yield from _attribute(interface, "name", _INTERFACES, what)
         yield from _in_attributes(part)
         yield from _hardware(part)
-        yield from _twice(part, robot)
         yield from _unlike_others(part)
         yield from _without_state(part)
 
@@ -145,43 +143,6 @@ def _hardware(part: Element) -> Iterator[Problem]:
                     "the joints",
                     write(plugin.place, said, near[0]),
                 )
-
-
-def _twice(part: Element, robot: Robot) -> Iterator[Problem]:
-    """Report joints that one <ros2_control> has twice."""
-    first: dict[str, Element] = {}
-    for joint in part.find_all("joint"):
-        name = joint.get("name") or ""
-        other = first.setdefault(name, joint)
-        if other is joint or other.place == joint.place:
-            continue
-        taken = {each.get("name") for each in part.find_all("joint")}
-        free = [
-            each.name
-            for each in robot.joints.values()
-            if each.type != "fixed" and each.name not in taken
-        ]
-        right = free[0] if len(free) == 1 else nearest(name, free)
-        order = list(robot.joints)
-        later = (
-            right is not None
-            and name in order
-            and order.index(right) > order.index(name)
-        )
-        wrong = joint if later else other
-        here = f" for the one on line {wrong.place.line}" * (wrong is other)
-        fix = Fix("write the joint that is meant")
-        if right is not None:
-            edits = write_attribute(wrong.place, "name", name, right).edits
-            fix = Fix(f'write name="{right}"{here}', edits)
-        yield Problem.at(
-            joint.place,
-            "warning",
-            _CODE,
-            f"<ros2_control> has the joint {name} twice (see "
-            f"{where(other.place, joint.place)}): the hardware does not start",
-            fix,
-        )
 
 
 def _unlike_others(part: Element) -> Iterator[Problem]:

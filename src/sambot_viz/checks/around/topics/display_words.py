@@ -29,7 +29,7 @@ _FRAMES, _FIXED = ("Target Frame", "Reference Frame"), "<Fixed Frame>"
 
 
 def unknown_frames_of_views(around: Surroundings) -> Iterator[Problem]:
-    """Report misspelt <Fixed Frame>."""
+    """Report a misspelt <Fixed Frame>, and misspelt links in its place."""
     for one in settings(around):
         for key in _FRAMES:
             said = one.values.get(key)
@@ -43,6 +43,19 @@ def unknown_frames_of_views(around: Surroundings) -> Iterator[Problem]:
                     f"{key} is {said.value}, which is no frame: RViz knows only "
                     f"{_FIXED} for that of the whole view",
                     write(said.place, said.value, _FIXED),
+                )
+                continue
+            near = [link for link in around.links if is_one_slip(said.value, link)]
+            if said.value in around.links or len(near) != 1:
+                continue
+            if not around.said_elsewhere(said.value):
+                yield Problem.at(
+                    said.place,
+                    "warning",
+                    "frame-unknown",
+                    f"{key} is {said.value}, which no link has: the model has "
+                    f"{near[0]}",
+                    write(said.place, said.value, near[0]),
                 )
 
 
