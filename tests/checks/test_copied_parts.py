@@ -145,6 +145,33 @@ def test_it_is_moved_or_written_where_it_belongs(
     assert not found(tmp_path, right, code)[0]
 
 
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        (("left_arm", "left_arm"), True),
+        (("left_arm", "right_arm"), False),
+        (("right_arm", "left_arm"), False),
+        (("arm", "arm"), False),
+    ],
+)
+def test_a_link_shows_its_own_mesh(
+    tmp_path: Path, names: tuple[str, str], said: bool
+) -> None:
+    for name in ("left_arm", "right_arm", "arm"):
+        (tmp_path / f"{name}.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    mesh = '<visual><geometry><mesh filename="{}.obj"/></geometry></visual>'
+    text = sides()
+    for number, name in enumerate(("left", "right")):
+        link = f'<link name="{name}">'
+        text = text.replace(link, link + mesh.format(names[number]))
+    problems, model = found(tmp_path, text, "mesh-copied")
+    assert len(problems) == said
+    for problem in problems:
+        right = f"{HEAD}{text}</robot>\n"[::-1]
+        right = right.replace("left_arm.obj"[::-1], "right_arm.obj"[::-1], 1)[::-1]
+        assert apply_edits(problem.edits, model.read_text()) == right
+
+
 def test_the_call_of_a_macro_gets_the_other_side(tmp_path: Path) -> None:
     text = (
         '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'

@@ -9,18 +9,10 @@ from dataclasses import replace
 from sambot_viz.checks.targets import CheckedModel
 from sambot_viz.edits import source_of, together, write_attribute
 from sambot_viz.errors import Fix, Place, Problem
+from sambot_viz.robot.slips.twin_names import swap, swapped
 
 _COPIED = {"link-duplicate": "link", "joint-duplicate": "joint"}
 """Code → the duplicate element."""
-_SIDES = (
-    {"left", "right", "front", "rear", "back", "center", "middle"},
-    {"l", "r", "f", "b", "fl", "fr", "rl", "rr", "bl", "br", "lf", "rf", "lr"},
-    {"upper", "lower"},
-    {"top", "bottom"},
-    {"first", "second", "third"},
-)
-"""Words of which the names of two similar parts have one each."""
-_PIECE = re.compile(r"[A-Za-z]+|\d+|[^A-Za-z\d]+")
 _VALUES = re.compile(r"=\s*[\"']([\w-]+)[\"']|>\s*([\w-]+)\s*<")
 
 
@@ -76,9 +68,9 @@ def _renamed(
     if source is None or tag is None or extent is None:
         return None
     name = source.text[slice(*extent)]
-    pairs = {other: pair for other in wanted if (pair := _swap(name, other))}
+    pairs = {other: pair for other in wanted if (pair := swap(name, other))}
     if not pairs:
-        pairs = {_swapped(name, pair): pair for pair in swaps} | pairs
+        pairs = {swapped(name, pair): pair for pair in swaps} | pairs
         pairs.pop(name, None)
     if len(pairs) != 1:
         return None
@@ -95,26 +87,8 @@ def _renamed(
         line = source.text.count("\n", 0, child.start()) + 1
         column = child.start() - source.text.rfind("\n", 0, child.start())
         at = Place(place.file, line, column)
-        new = _swapped(old, pair)
+        new = swapped(old, pair)
         if new != old:
             fixes.append(write_attribute(at, "link", old, new))
             hint += f', and <child link="{new}"/>'
     return together(hint, *fixes)
-
-
-def _swapped(name: str, pair: tuple[str, str]) -> str:
-    return "".join(pair[1] if p == pair[0] else p for p in _PIECE.findall(name))
-
-
-def _swap(one: str, other: str) -> tuple[str, str] | None:
-    """Return the words in which the names of two similar parts differ."""
-    pieces = [_PIECE.findall(name) for name in (one, other)]
-    if len(pieces[0]) != len(pieces[1]):
-        return None
-    pairs = [(a, b) for a, b in zip(*pieces, strict=True) if a != b]
-    if len(pairs) != 1:
-        return None
-    (pair,) = pairs
-    alike = {each.lower() for each in pair}
-    numbers = all(each.isdecimal() for each in pair)
-    return pair if numbers or any(alike <= side for side in _SIDES) else None

@@ -14,6 +14,7 @@ from sambot_viz.checks.consequences import without_consequences
 from sambot_viz.checks.exchanged_joint import exchanged_joint
 from sambot_viz.checks.launch_text import launch_text_as_yaml
 from sambot_viz.checks.model.axles import wheels_across_their_axles, wheels_in_one_place
+from sambot_viz.checks.model.copied_meshes import copied_meshes
 from sambot_viz.checks.model.exchanged_lengths import exchanged_lengths
 from sambot_viz.checks.model.falling import falls_over
 from sambot_viz.checks.model.flat_wheels import flat_wheels
@@ -72,6 +73,7 @@ RULES: tuple[Rule, ...] = (
     lengths_not_in_metres,
     unusable_meshes,
     meshes_of_wrong_size,
+    copied_meshes,
     unlike_twins,
     wheels_off_the_ground,
     wheels_across_their_axles,

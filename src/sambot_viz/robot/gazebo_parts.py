@@ -12,7 +12,7 @@ _OUTER = frozenset({"robot", "model", "world"})
 
 
 def gazebo_parts(document: Element, depth: int = 0) -> tuple[Element, ...]:
-    """Copy the <gazebo> and <ros2_control> elements of a model.
+    """Copy the <gazebo>, <ros2_control> and <transmission> elements of a model.
 
     Plugins and sensors of an SDF model get the form that they have in URDF: a <gazebo>
     around each, whose `reference` names the link or the joint of a sensor.
@@ -26,7 +26,7 @@ def gazebo_parts(document: Element, depth: int = 0) -> tuple[Element, ...]:
     """
     found: list[Element] = []
     for child in document.children:
-        if child.tag in ("gazebo", "ros2_control"):
+        if child.tag in ("gazebo", "ros2_control", "transmission"):
             found.append(_copy(child))
         elif child.tag == "plugin":
             found.append(_wrapped(child))

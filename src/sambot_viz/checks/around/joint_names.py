@@ -20,6 +20,8 @@ from sambot_viz.robot.xml.element import Element
 if TYPE_CHECKING:
     from sambot_viz.checks.around.surroundings import Surroundings
 
+_WITH_JOINTS = ("ros2_control", "transmission")
+"""Elements of a model, besides plugins, that name its joints."""
 _OTHER_SIDE = {
     "left_wheel_names": "right_wheel_names",
     "right_wheel_names": "left_wheel_names",
@@ -118,14 +120,14 @@ def _named_joints(robot: Robot) -> Iterator[tuple[Fact, _User]]:
                     ),
                 )
     for part in robot.gazebo:
-        if part.tag == "ros2_control":
+        if part.tag in _WITH_JOINTS:
             joints = part.find_all("joint")
             for joint in joints:
                 fact = Fact(joint.get("name") or "", joint.place)
                 taken = {other.get("name") or "" for other in joints} - {fact.value}
                 yield (
                     fact,
-                    _User("<ros2_control>", False, taken=frozenset(taken)),
+                    _User(f"<{part.tag}>", False, taken=frozenset(taken)),
                 )
 
 
@@ -141,7 +143,9 @@ def _unknown(robot: Robot, fact: Fact, user: _User) -> tuple[str, Fix]:
                 Fix(f"write the joint of the {side}wheel"),
             )
     else:
-        near = nearest(fact.value, [j for j in robot.joints if j not in user.taken])
+        free = [name for name in robot.joints if name not in user.taken]
+        turning = [name for name in free if robot.joints[name].type != "fixed"]
+        near = nearest(fact.value, turning) or nearest(fact.value, free)
     if near is None:
         movable = [j.name for j in robot.joints.values() if j.type != "fixed"]
         free = [name for name in movable if name not in user.taken]
