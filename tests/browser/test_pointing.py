@@ -20,6 +20,23 @@ GLOWING = """(() => {
   __viserMutable.scene.traverse(o => { if (o.renderOrder === 10) found.push(o); });
   return found.length;
 })()"""
+# How thick the needle is, as a part of the picture's height.
+THICK = """(() => {
+  const { scene, camera } = __viserMutable;
+  let needle;
+  scene.traverse(o => {
+    if (o.renderOrder === 10 && !o.material.depthTest) needle ||= o;
+  });
+  const a = needle.getWorldPosition(camera.position.clone()), b = a.clone();
+  const up = b.clone().set(0, 1, 0).applyQuaternion(camera.quaternion);
+  b.addScaledVector(up, needle.scale.x);
+  return (b.project(camera).y - a.project(camera).y) / 2;
+})()"""
+# The camera of a view without perspective is there.
+FAR_AWAY = """(() => {
+  const { camera } = __viserMutable;
+  return camera.fov < 1 && camera.position.length() > 20;
+})()"""
 AT = """(() => {
   const { nodeRefFromName: nodes, camera, canvas } = __viserMutable;
   const at = nodes["NODE"].getWorldPosition(camera.position.clone()).project(camera);
@@ -55,6 +72,23 @@ def test_a_row_under_the_mouse_lights_its_link_and_nothing_stays(
     user.until(lambda: page.evaluate(GLOWING) == 3)
     user.click("button", "Degrees")
     user.until(lambda: page.evaluate(GLOWING) == 0)
+
+
+def test_the_needle_is_as_thin_in_a_view_without_perspective(
+    viewer: ViewerPage,
+) -> None:
+    user, page = viewer.user, viewer.page
+    x, y, _, height = user.box(user.row("Joints", LEFT))
+    page.mouse.move(x - 300, y + 300)
+    user.keys("1")
+    user.until(lambda: page.evaluate(FAR_AWAY))
+    page.mouse.move(x + 20, y + height / 2)
+    user.until(lambda: page.evaluate(GLOWING) == 3)
+    assert page.evaluate(THICK) == pytest.approx(0.005, rel=0.1)
+    page.mouse.move(x - 300, y + 300)
+    user.until(lambda: page.evaluate(GLOWING) == 0)
+    user.keys("z")
+    user.until(lambda: not page.evaluate(FAR_AWAY))
 
 
 def test_a_double_click_on_a_link_goes_to_its_joint(

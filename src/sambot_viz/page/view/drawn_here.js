@@ -12,9 +12,9 @@ const COLOR = 0xffaa00,
 /** How opaque they are. */
 const GLOW = 0.45,
   FAINT = 0.35;
-/** Length of the needle, and its thickness, as parts of the distance from the camera. */
-const LENGTH = 0.3,
-  THICK = 0.004;
+/** Length of the needle, and its thickness, as parts of what is seen from top to bottom there. */
+const LENGTH = 0.36,
+  THICK = 0.005;
 /** A ghost of more meshes would make each picture slow. */
 const MOST = 1500;
 /** The nodes of visual shapes, and of collision shapes, below the node of a link. */
@@ -93,18 +93,20 @@ function light(page, [node, ...axis]) {
   if (!axis.some(Boolean)) return;
   const at = link.getWorldPosition(ball.position.clone());
   const far = at.distanceTo(page.camera.getWorldPosition(at.clone()));
+  // Views without perspective are those of a camera far away that sees a small angle.
+  const seen = 2 * far * Math.tan((page.camera.fov * Math.PI) / 360);
   const along = at
     .clone()
     .set(...axis)
     .normalize();
   const round = new ball.geometry.constructor(0.5, 16, 8);
-  /** @param {number} middle @param {number[]} size as parts of the distance */
+  /** @param {number} middle @param {number[]} size as parts of what is seen */
   const part = (middle, size) => {
     const mesh = add(ball, round, link, { color: COLOR, depthTest: false });
     drawn.glow.push(mesh);
-    mesh.position.copy(along).multiplyScalar(middle * far);
+    mesh.position.copy(along).multiplyScalar(middle * seen);
     mesh.quaternion.setFromUnitVectors(at.clone().set(0, 0, 1), along);
-    mesh.scale.set(...size.map((length) => length * far));
+    mesh.scale.set(...size.map((length) => length * seen));
   };
   part(0, [THICK, THICK, LENGTH]);
   part(LENGTH / 2, [4 * THICK, 4 * THICK, 6 * THICK]);
