@@ -116,6 +116,28 @@ def test_a_parameter_file_that_is_no_yaml(
         assert "display.launch.py line" in problem.message
 
 
+@pytest.mark.parametrize(
+    ("right", "wrong", "hint"),
+    [
+        ("    frequency: 30.0", "    frequency:30.0", "write frequency: 30.0"),
+        ("    two_d_mode", "   two_d_mode", "write 4 blanks before it"),
+        ("    world_frame", "     world_frame", "write 4 blanks before it"),
+    ],
+)
+def test_comments_between_the_lines_hide_nothing(
+    copied: Copied, right: str, wrong: str, hint: str
+) -> None:
+    package = copied("gz")
+    # The guide's own file has its comments at the margin.
+    around = "\n\n# What the next line is for.\n# It has a default.\n# 1.\n# 2.\n"
+    text = (package / EKF).read_text().replace("\n    ", f"{around}    ")
+    (package / EKF).write_text(text)
+    edit(package / EKF, right, wrong)
+    (problem,) = found(package)
+    assert problem.line == text[: text.index(right)].count("\n") + 1
+    assert problem.hint == hint
+
+
 def test_a_file_that_nothing_names_is_left_alone(copied: Copied) -> None:
     package = copied("gz")
     (package / "config" / "notes.yaml").write_text("a: b: c\n")

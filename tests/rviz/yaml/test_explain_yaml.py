@@ -35,6 +35,11 @@ MANAGER = "Visualization Manager:\n"
             "a blank behind the key",
         ),
         (
+            MANAGER + "  Depth:5\n  Value: b\n",
+            "f:2: error[config-yaml]: this line is not 'key: value'; write a colon and "
+            "a blank behind the key",
+        ),
+        (
             MANAGER + "  Value: b\n  Name\n",
             "f:3: error[config-yaml]: this line is not 'key: value'; write a colon and "
             "a blank behind the key",

@@ -14,6 +14,7 @@ from sambot_viz.rviz.yaml.parser import ParseFault, parse
 
 _INI_LINE = re.compile(r"(?m)^(?:[^\s:=#\[]|\\ )+=")
 _TAB_INDENT = re.compile(r"^ *\t")
+_PAIR = re.compile(r":(?:\s|$)")
 _MERGE_LINE = re.compile(r"(?m)^(?:<<<<<<<|>>>>>>>)(?: |$)")
 _GENERAL = (
     "look at this line and the one above: all keys of one map are indented alike, with "
@@ -199,7 +200,7 @@ class _Slip:
             message = "there are two colons in this line, each followed by a blank"
             return self._at_place(message, "put the value in quotes")
         above = self._line_above()
-        if above and ":" not in self.lines[above - 1]:
+        if above and not _PAIR.search(self.lines[above - 1]):
             return self._no_colon(above)
         return self._at_place(
             "this line is indented further than the line above allows",
@@ -207,7 +208,9 @@ class _Slip:
         )
 
     def _no_colon(self, line: int) -> _YamlCause:
-        while line > 1 and (":" in self.lines[line - 1] or not self.lines[line - 1]):
+        while line > 1 and (
+            _PAIR.search(self.lines[line - 1]) or not self.lines[line - 1]
+        ):
             line -= 1
         return _YamlCause(
             line,

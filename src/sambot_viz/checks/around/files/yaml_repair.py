@@ -92,7 +92,7 @@ def _candidates(
             "write blanks for the tab",
         )
     yield from _levels(lines, at)
-    near = [n for n in range(at, -1, -1) if lines[n].strip()][: _BEFORE + 1]
+    near = [n for n in range(at, -1, -1) if _says(lines[n])][: _BEFORE + 1]
     start = error.context_mark
     if start is not None and start.line < len(lines) and start.line not in near:
         near.append(start.line)
@@ -123,6 +123,11 @@ def _levels(lines: list[str], at: int) -> Iterator[_Candidate]:
             f"add a line {name} below this one, with {len(_indent(inner))} blanks "
             "before it",
         )
+
+
+def _says(line: str) -> bool:
+    """Whether there is more in a line than blanks and a comment."""
+    return line.lstrip()[:1] not in ("", "#")
 
 
 def _indent(line: str) -> str:
@@ -222,7 +227,7 @@ def _name_in_list(lines: list[str], n: int) -> Iterator[_Candidate]:
 
 def _first_beside(lines: Iterable[str], depth: int) -> str:
     """Return the first line that is no further in; empty without one."""
-    return next((x for x in lines if x.strip() and len(_indent(x)) <= depth), "")
+    return next((x for x in lines if _says(x) and len(_indent(x)) <= depth), "")
 
 
 def _key_in(line: str) -> str:
@@ -231,7 +236,7 @@ def _key_in(line: str) -> str:
 
 def _without_key(lines: list[str], n: int) -> Iterator[_Candidate]:
     """Write the name of a group that a list names, above lines that are further in."""
-    above = next((x for x in lines[n - 1 :: -1] if x.strip()), "") if n else ""
+    above = next((x for x in lines[n - 1 :: -1] if _says(x)), "") if n else ""
     blanks = _indent(above)
     is_deeper = len(_indent(lines[n])) > len(blanks) + 1 and bool(_KEY.match(above))
     if not is_deeper or above.rstrip().endswith(":"):
@@ -255,8 +260,8 @@ def _indentation(lines: list[str], near: list[int]) -> Iterator[_Candidate]:
     keys = Counter(_indent(line) for line in lines if _KEY.match(line))
     found: list[tuple[int, _Candidate]] = []
     for n in near:
-        before = [_indent(lines[k]) for k in range(n) if lines[k].strip()]
-        after = [_indent(x) for x in lines[n + 1 :] if x.strip()]
+        before = [_indent(lines[k]) for k in range(n) if _says(lines[k])]
+        after = [_indent(x) for x in lines[n + 1 :] if _says(x)]
         for indent in dict.fromkeys((*before[-1:], *after[:1])):
             if indent == _indent(lines[n]):
                 continue
