@@ -301,6 +301,17 @@ def test_what_another_program_saved_is_never_overwritten_unasked(
     assert file.read_text() == editor.text
 
 
+def test_a_model_that_is_gone_is_a_problem_though_the_editor_has_its_text(
+    edit: Callable[..., Editor], package: Path
+) -> None:
+    editor = edit()
+    (package / MODEL).unlink()
+    problems = session_of(editor.viz).problems
+    editor.client.wait_until(lambda: "is gone" in problems.shown.value.note)
+    codes = [problem.code for problem in problems.shown.value.listed]
+    assert codes.count("model-not-found") == 1
+
+
 def test_changes_of_other_lines_are_merged_and_conflicts_ask_one_by_one(
     edit: Callable[..., Editor], package: Path
 ) -> None:

@@ -144,7 +144,11 @@ class Problems:
     def of_newest(self) -> tuple[Problem, ...]:
         """Why the newest text of the model, in the editor or saved, is not shown."""
         of_file = self.of_saves.get("model", ())
-        return of_file if self.of_text is None else self.of_text
+        if self.of_text is None:
+            return of_file
+        # The editor keeps the text of a file that is gone, and the robot is that of it.
+        gone = (problem for problem in of_file if problem.code == "model-not-found")
+        return (*gone, *self.of_text)
 
     def report_error(self, error: Exception, client: int | None = None) -> None:
         """Show an exception that was not handled, and log it once.
