@@ -31,7 +31,7 @@ class MeasureTool(Tool):
     kind = "rviz_default_plugins/Measure"
     label = "Measure"
     key = "N"
-    help = "Click two points or frames; Esc or a right click starts again."
+    help = "Click two points or frames; a right click starts again, Esc ends."
     touch = "Tap two points or frames; a third one starts again."
     clicks = True
     properties = (
