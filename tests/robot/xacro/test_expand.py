@@ -180,6 +180,13 @@ def test_a_call_without_its_prefix_is_the_reason_for_an_empty_robot(tmp_path: Pa
     assert problems[0].hint == "write <xacro:wheel>"
 
 
+@pytest.mark.parametrize("tag", ["ros2_control", "gazebo"])
+def test_a_macro_may_have_the_name_of_what_it_makes(tmp_path: Path, tag: str) -> None:
+    macro = f'<xacro:macro name="{tag}"><{tag} name="a"/></xacro:macro>\n'
+    inside = f'<link name="a"/>\n{macro}<xacro:{tag}/>\n'
+    assert load_robot(write(tmp_path / "m.xacro", inside)).problems == ()
+
+
 def test_a_library_names_its_macros_and_the_file_that_includes_it(tmp_path: Path):
     library = write(tmp_path / "wheel.xacro", MACRO)
     assert "call it: <xacro:wheel …/>" in errors(library)[0].hint

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.packages.package_index import Lookup
 from sambot_viz.robot.slips.needs_xacro import missing_prefix
+from sambot_viz.robot.urdf.urdf_words import URDF
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element
 
@@ -160,6 +161,7 @@ def read_result(answer: ChildAnswer, file: str) -> ExpandedModel:
     problems += [
         missing_prefix(tag, is_macro, Place(place, line, column))
         for tag, is_macro, place, line, column in expanded["unprefixed"]
+        if tag not in URDF.children(URDF.root)
     ]
     root, wrong_name = _tree(expanded)
     if wrong_name or _FORBIDDEN.search(expanded["xml"]):
