@@ -262,6 +262,14 @@ def test_the_edit_brings_parts_for_the_simulator_back(
     assert path.read_text() == text
 
 
+def test_only_a_lidar_chooses_its_message(tmp_path: Path) -> None:
+    path = tmp_path / "cart.urdf"
+    part = CLASSIC.replace('"ray"', '"imu"').replace("ray_sensor", "imu_sensor")
+    part = part.replace("sensor_msgs/LaserScan", "sensor_msgs/msg/Imu")
+    path.write_text(URDF[: URDF.index("  <gazebo")] + part)
+    assert [p for p in check(path) if p.code == PLUGIN] == []
+
+
 @pytest.mark.parametrize("around", ["gazebo", "link"])
 def test_a_part_for_controllers_is_moved_into_the_robot(
     tmp_path: Path, around: str

@@ -15,12 +15,13 @@ from sambot_viz.robot.slips.vocabulary import is_one_slip
 _TABLE = "classic_plugins"
 _CODE = "gazebo-plugin"
 _LIKENESS = 0.75
+_LIDAR = "libgazebo_ros_ray_sensor.so"
 _READS = {
     "libgazebo_ros_bumper.so": ("contact",),
     "libgazebo_ros_camera.so": ("camera", "depth", "multicamera", "wideanglecamera"),
     "libgazebo_ros_gps_sensor.so": ("gps",),
     "libgazebo_ros_imu_sensor.so": ("imu",),
-    "libgazebo_ros_ray_sensor.so": ("ray", "gpu_ray", "sonar"),
+    _LIDAR: ("ray", "gpu_ray", "sonar"),
 }
 """Plugin of a sensor → the types of sensors that it reads."""
 _OF_MODELS = (
@@ -159,7 +160,8 @@ def _elements(plugin: Plugin, known: tuple[str, ...]) -> Iterator[Problem]:
 
 
 def _messages(plugin: Plugin) -> Iterator[Problem]:
-    for fact in plugin.all("output_type"):
+    """Report a message that a lidar cannot publish; others do not read it."""
+    for fact in plugin.all("output_type") if plugin.filename == _LIDAR else ():
         last = re.split("[/:]", fact.value)[-1]
         near = nearest(f"sensor_msgs/{last}", _MESSAGES, _LIKENESS)
         if fact.value in _MESSAGES or near is None:
