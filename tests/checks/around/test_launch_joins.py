@@ -149,6 +149,15 @@ def test_what_launch_takes_otherwise(
     assert apply_edits(problem.edits, launch.read_text()) == good
 
 
+def test_a_substitution_stays_one_word(package: Path) -> None:
+    launch = package / "launch" / "all.launch.py"
+    right = """'-topic', 'robot_description'"""
+    wrong = """'-c $(find my cart)/a.yaml'"""
+    launch.write_text(PYTHON.replace(right, wrong))
+    (problem,) = check(package)
+    assert problem.hint == "write '-c', '$(find my cart)/a.yaml'"
+
+
 RIGHT = '["ros2", "control", "load_controller", "a"]'
 
 

@@ -18,7 +18,10 @@ from sambot_viz.robot.xml.element import Element
 
 _CODE = "launch-code"
 _WORDS = ("arguments", "cmd", "ros_arguments")
-_OPTION = re.compile(r"-{1,2}[A-Za-z][\w-]*\s+\S.*")
+OPTION = re.compile(r"-{1,2}[A-Za-z][\w-]*\s+\S.*")
+"""An option with its value in one text."""
+_WORD = re.compile(r"(?:\$\([^()]*\)|\S)+")
+"""A word of a command; a substitution is one, with its blanks."""
 _NUMBERS = re.compile(r"(-?[\d.]+\s+){3,}.*")
 _ASSIGNED = re.compile(r"\w+:=.*")
 _COMMAND = re.compile(r"\$\(command\s+(['\"]?)(\w+)\$\(")
@@ -82,8 +85,8 @@ def _no_word(
         )
     elif is_value or not isinstance(text, str):
         return
-    elif _OPTION.fullmatch(text) or _NUMBERS.match(text):
-        words = ", ".join(repr(word) for word in text.split())
+    elif OPTION.fullmatch(text) or _NUMBERS.match(text):
+        words = ", ".join(repr(word) for word in _WORD.findall(text))
         yield Problem.at(
             launch.place(node),
             "warning",

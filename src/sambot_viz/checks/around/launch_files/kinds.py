@@ -6,6 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
+from sambot_viz.checks.around.launch_files.joins import OPTION
 from sambot_viz.checks.around.launching.actions import Action, Expression, Joined
 from sambot_viz.checks.around.launching.launch_file import NODES, LaunchFile
 from sambot_viz.checks.around.launching.python_parts import Call, Listing, Table
@@ -13,6 +14,7 @@ from sambot_viz.checks.around.place import bracketed, rewritten
 from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.running.system import RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.slips.vocabulary import is_one_slip
@@ -53,7 +55,7 @@ def arguments_without_list(around: Surroundings) -> Iterator[Problem]:
             for argument, follows in _LISTS.items():
                 given = call.given(argument)
                 what = None if given is None else _no_list(call, argument)
-                if given is None or what is None:
+                if given is None or what is None or _is_iterable(given, launch):
                     continue
                 plain = ast.unparse(given)
                 is_whole = argument == "cmd" and call.given("shell") is not None
@@ -79,6 +81,12 @@ def _no_list(call: Call, argument: str) -> str | None:
     if isinstance(value, Table):
         return "a dict"
     return "a text" if isinstance(value, (str, Joined)) else None
+
+
+def _is_iterable(given: ast.expr, launch: LaunchFile) -> bool:
+    """Return whether an argument is {…}.items(), which launch goes through."""
+    made = launch.origin(given)
+    return isinstance(made, ast.Call) and call_name(made.func) == "items"
 
 
 def _pairs(given: ast.expr, argument: str) -> str:
@@ -249,6 +257,9 @@ def plain_substitutions(around: Surroundings) -> Iterator[Problem]:
                 continue
             found = _SUBSTITUTION.search(text)
             if found is None or not isinstance(node, ast.Constant):
+                continue
+            if OPTION.fullmatch(text):
+                # An option and its value in one text have another finding.
                 continue
             parts = [repr(part) for part in (text[: found.start()],) if part]
             parts.append(f"{_IN_PYTHON[found[1]]}('{found[2]}')")

@@ -196,7 +196,8 @@ def rviz_without_option(around: Surroundings) -> Iterator[Problem]:
             text = launch.values.said(item)
             known = option is not None and option[:1] != "-"
             option = text
-            if text is None or not text.endswith(".rviz"):
+            if text is None or not text.endswith(".rviz") or text[0] == "-":
+                # Also -dFILE and --display-config=FILE.
                 continue
             if known and " " not in text:
                 yield Problem.at(
