@@ -53,6 +53,12 @@ def test_an_sdf_file_is_a_model_and_a_world_is_none(tmp_path: Path, name: str) -
     assert model_in(package(tmp_path, **files)) == f"src/description/{name}"
 
 
+def test_a_file_in_a_folder_of_worlds_is_no_robot(tmp_path: Path) -> None:
+    folder = package(tmp_path, **{"worlds/contest/task.sdf": WORLD})
+    with pytest.raises(UsageError, match="no model in the folder"):
+        find(folder)
+
+
 @pytest.mark.parametrize("name", ["my_bot.sdf", "my_bot.urdf"])
 def test_of_urdf_and_sdf_the_one_of_the_launch_file_is_the_model(
     tmp_path: Path, name: str

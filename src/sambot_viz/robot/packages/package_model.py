@@ -15,7 +15,11 @@ from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.files import read_limited
-from sambot_viz.robot.packages.package_index import MANIFESTS, package_name
+from sambot_viz.robot.packages.package_index import (
+    MANIFESTS,
+    package_around,
+    package_name,
+)
 
 MODEL_ENDINGS = (".urdf.xacro", ".urdf", ".xacro", ".sdf.xacro", ".sdf")
 """Endings of model names, the most likely one first."""
@@ -144,11 +148,14 @@ def is_scenery(path: Path) -> bool:
 def _is_model_in_world(path: Path) -> bool:
     """Return whether a file is a robot inside a <world>, which its reader reports.
 
-    A world has its own folder, or the word in its name.
+    A world is in a folder of worlds of its package, or has the word in its name.
     """
     text = _text_of(path)
-    is_world = any("world" in part for part in (path.stem, path.parent.name))
-    return not is_world and bool(_WORLD.search(text) and _LINK.search(text))
+    if not (_WORLD.search(text) and _LINK.search(text)):
+        return False
+    file = path.absolute()
+    inside = file.relative_to(package_around(file) or file.parent.parent)
+    return not any("world" in part for part in (file.stem, *inside.parts[:-1]))
 
 
 def is_for_tests(path: Path) -> bool:
