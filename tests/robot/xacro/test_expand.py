@@ -150,6 +150,8 @@ def test_a_file_that_is_being_included_never_replaces_a_missing_one(tmp_path: Pa
     find = '<xacro:include filename="$(find demo)/urdf/m.xacro"/>'
     model = write(tmp_path / "src" / "urdf" / "m.xacro", find)
     assert errors(model)[0].code == "xacro-include-missing"
+    model.write_text(model.read_text().replace("urdf/m.xacro", "src/urdf/m"))
+    assert errors(model)[0].hint == "correct the path, or put the file there"
 
 
 def test_a_missing_package_is_named_with_the_line_and_the_places(tmp_path: Path):

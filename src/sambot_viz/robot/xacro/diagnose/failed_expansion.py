@@ -236,7 +236,8 @@ class FailedExpansion:
         """The fix that names the file of the package that was meant, if one was."""
         missing = Path(self.found[0].strip())
         near = near_file(missing)
-        if near is None:
+        # A file that is being read cannot be meant: it would include itself.
+        if near is None or near in [Path(f).absolute() for f in self.failure.includes]:
             return Fix(CORRECT_PATH)
         fix = write_path(self.at, str(missing), str(near))
         if not fix.edits and near.parent == missing.parent:
