@@ -97,6 +97,17 @@ def test_what_stops_ros2_launch(
     assert check(package / MODEL) == []
 
 
+def test_a_module_with_such_a_name_is_no_launch_file(copied: Copied) -> None:
+    package = copied("gz")
+    text = (package / LAUNCH).read_text().replace(ENTRY, "gen_launch")
+    module = package / "cart_bringup" / "gen_launch.py"
+    module.parent.mkdir()
+    module.write_text(text)
+    assert "launch-code" in {p.code for p in check(package / MODEL)}
+    (module.parent / "__init__.py").touch()
+    assert "launch-code" not in {p.code for p in check(package / MODEL)}
+
+
 def test_an_empty_launch_file(copied: Copied) -> None:
     package = copied("gz")
     empty = package / "launch" / "empty.launch.py"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import builtins
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.checks.around.launch_files.imports import modules
@@ -50,6 +51,8 @@ def missing_entries(around: Surroundings) -> Iterator[Problem]:
     for launch in around.launches:
         functions = [n for n in launch.tree.body if isinstance(n, ast.FunctionDef)]
         entry = next((f for f in functions if f.name == _ENTRY), None)
+        if _is_module(launch):
+            continue
         if entry is not None:
             lost = any(isinstance(node, ast.Return) for node in launch.tree.body)
             if not lost and not _returns(entry):
@@ -74,6 +77,12 @@ def missing_entries(around: Surroundings) -> Iterator[Problem]:
                             _ENTRY,
                         ),
                     )
+
+
+def _is_module(launch: LaunchFile) -> bool:
+    """Return whether a file is a module of a Python package, for others to import."""
+    folder = Path(launch.shown).parent
+    return folder.name != "launch" and (folder / "__init__.py").exists()
 
 
 def _describes(function: ast.FunctionDef) -> bool:
