@@ -54,17 +54,20 @@ def load_launched(
     try:
         return load(xacro_args=given)
     except RobotError as error:
-        if not any(p.code.startswith("xacro-") for p in error.problems):
-            raise
         # Import late: most models need no arguments.
-        from sambot_viz.checks.around.xacro_arguments import xacro_arguments
+        from sambot_viz.checks.around.xacro_arguments import (
+            given_arguments,
+            xacro_arguments,
+        )
 
+        is_of_xacro = any(p.code.startswith("xacro-") for p in error.problems)
+        possible = xacro_arguments if is_of_xacro else given_arguments
         first = error
-        for found in xacro_arguments(target.model, target.packages):
+        for found in possible(target.model, target.packages):
             try:
                 return load(xacro_args={**found, **given})
             except RobotError as other:
-                first = other if first is error else first
+                first = other if is_of_xacro and first is error else first
         raise first from None
 
 

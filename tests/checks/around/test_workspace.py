@@ -443,7 +443,22 @@ def generate_launch_description():
 """
 
 
-@pytest.mark.parametrize("launch", [COMMAND, MAPPINGS])
+BRANCHES = """\
+from xacro import parse, process_doc
+
+
+def generate_launch_description():
+    if input() == "1":
+        size = "large"
+    else:
+        size = "small"
+    doc = parse(open("a.urdf.xacro"))
+    process_doc(doc, mappings={"name": "a", "size": size})
+    return [doc]
+"""
+
+
+@pytest.mark.parametrize("launch", [COMMAND, MAPPINGS, BRANCHES])
 def test_a_model_gets_the_arguments_that_launch_files_give(
     launch: str, tmp_path: Path
 ) -> None:
@@ -458,6 +473,23 @@ def test_a_model_gets_the_arguments_that_launch_files_give(
     assert {p.severity for p in check(package)} == {"error"}
     _write(package, "launch/a.launch.py", launch)
     assert [p for p in check(package) if p.code.startswith("xacro")] == []
+
+
+def test_a_model_that_is_whole_only_with_given_arguments_is_right(
+    tmp_path: Path,
+) -> None:
+    package = _package(tmp_path / "a_description", launch__a_launch_py="")
+    part = '<link name="b"/>\n<joint name="j" type="fixed"><parent link="a"/>'
+    part += '<child link="b"/></joint>'
+    model = XACRO.format(
+        'name="a"><xacro:arg name="size" default=""/><link name="a"/>'
+        + part.replace("<joint", "<xacro:if value=\"${'$(arg size)' != ''}\"><joint")
+        + "</xacro:if>"
+    )
+    _write(package, "urdf/a.urdf.xacro", model)
+    assert "root-not-unique" in {p.code for p in check(package)}
+    _write(package, "launch/a.launch.py", BRANCHES)
+    assert "root-not-unique" not in {p.code for p in check(package)}
 
 
 def test_an_argument_whose_value_only_the_launch_file_knows_is_none_that_is_missing(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
@@ -18,6 +19,8 @@ from sambot_viz.checks.around.workspace import Package
 
 _MOST = 3
 """Maximum number of variants of a model besides the first."""
+_READS = frozenset({"process_file", "process_doc"})
+"""Functions of xacro that take arguments."""
 _DECLARED = re.compile(r"<xacro:arg\s[^>]*>")
 _ROOT = re.compile(r"<robot\s[^>]*>")
 _USED = re.compile(r"\$\(arg\s+([\w.-]+)\s*\)")
@@ -103,15 +106,41 @@ def _defaults(packages: Sequence[Package]) -> dict[str, str]:
 def xacro_arguments(
     model: Path, packages: Sequence[Package]
 ) -> Iterator[dict[str, str]]:
-    """Yield the arguments that launch files give to a model; the first value counts.
+    """Yield the arguments that launch files may give to a model, for one without.
 
-    Launch arguments have their default values, or the first of their choices. A second
+    They are those of `given_arguments` and all arguments of the launch files. A second
     result has 0, a number and a text for values that only a run reveals.
     """
+    found, unknown = _of_model(model, packages)
+    launches = [file for package in packages for file in package.launches]
+    defaults = {k: v for file in launches for k, v in file.values.defaults.items()}
+    known = {**defaults, **found}
+    if known:
+        yield known
+    if unknown.keys() - known.keys():
+        yield {**unknown, **known}
+
+
+def given_arguments(
+    model: Path, packages: Sequence[Package]
+) -> Iterator[dict[str, str]]:
+    """Yield the arguments that launch files give to a model; the first value counts.
+
+    Launch arguments have their default values, or the first of their choices, and a
+    variable has the first of its texts.
+    """
+    found, _ = _of_model(model, packages)
+    if found:
+        yield found
+
+
+def _of_model(
+    model: Path, packages: Sequence[Package]
+) -> tuple[dict[str, str], dict[str, str]]:
+    """Return the given arguments with a known value, and those without."""
     found: dict[str, str] = {}
     unknown: dict[str, str] = {}
     launches = [file for package in packages for file in package.launches]
-    defaults = {k: v for file in launches for k, v in file.values.defaults.items()}
     opening = (f for f in launches if any(model.name in text for text in f.strings))
     for launch in opening:
         for name, value in _given(launch):
@@ -120,11 +149,7 @@ def xacro_arguments(
                 found.setdefault(name, path)
             else:
                 unknown.setdefault(name, "0")
-    known = {**defaults, **found}
-    if known:
-        yield known
-    if unknown.keys() - known.keys():
-        yield {**unknown, **known}
+    return found, unknown
 
 
 def _given(launch: LaunchFile) -> Iterator[tuple[str, str]]:
@@ -134,12 +159,27 @@ def _given(launch: LaunchFile) -> Iterator[tuple[str, str]]:
             words = call.listing("command", 0).items
             command = "".join(_text(launch, word, choices) for word, _ in words)
             yield from _arguments(command)
-        elif call.name == "process_file":
+        elif call.name in _READS:
             given = call.value("mappings")
             for pair in given.pairs if isinstance(given, Table) else ():
-                name = launch.values.said(pair.key)
+                name, text = launch.values.said(pair.key), ""
+                if isinstance(pair.node, ast.Name):
+                    text = _first_text(launch, pair.node.id)
                 if name:
-                    yield name, _text(launch, pair.value, choices)
+                    yield name, text or _text(launch, pair.value, choices)
+
+
+def _first_text(launch: LaunchFile, variable: str) -> str:
+    """Return the first of several texts that a variable gets; empty without one."""
+    for node in ast.walk(launch.tree):
+        match node:
+            case ast.Assign(
+                targets=[ast.Name(id=name)], value=ast.Constant(value=str(text))
+            ) if name == variable:
+                return text
+            case _:
+                pass
+    return ""
 
 
 def _arguments(command: str) -> Iterator[tuple[str, str]]:
