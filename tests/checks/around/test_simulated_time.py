@@ -37,6 +37,14 @@ def test_a_launch_file_of_nav2_that_is_not_told_the_time(
     assert "use_sim_time is false" in message
 
 
+def test_a_time_in_a_file_that_nav2_may_rewrite_proves_nothing(tmp_path: Path) -> None:
+    (tmp_path / "nav2.yaml").write_text(
+        "planner_server:\n  ros__parameters:\n    use_sim_time: true\n"
+    )
+    file = '<arg name="params_file" value="$(find-pkg-share robot)/nav2.yaml"/>'
+    assert found(tmp_path, f"{NAV2}{file}</include>") == []
+
+
 @pytest.mark.parametrize(
     "launch",
     [

@@ -10,7 +10,7 @@ from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.around.gazebo.starts import starts
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.place import where
-from sambot_viz.checks.around.running.system import RunningNode
+from sambot_viz.checks.around.running.system import GivenParameter, RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import write_between
@@ -38,8 +38,7 @@ def different_clocks(around: Surroundings) -> Iterator[Problem]:
         if given is None or flag(given.value or "") is not False:
             continue
         exempt = node.is_simulator or node.executable in _WITHOUT_TIME
-        # A launch file of Nav2 may override use_sim_time of the file.
-        exempt = exempt or (given.given_at is not None and node.place in node.chain)
+        exempt = exempt or _may_be_overridden(node, given)
         # Another launch file that includes this one may set true.
         open_ = given.is_argument and _CLOCK not in running.declared
         if not exempt and (given.place in node.chain or not open_):
@@ -56,7 +55,14 @@ def different_clocks(around: Surroundings) -> Iterator[Problem]:
 
 def _is_simulated(node: RunningNode) -> bool:
     given = node.parameter(_CLOCK)
-    return given is not None and flag(given.value or "") is True
+    if given is None or _may_be_overridden(node, given):
+        return False
+    return flag(given.value or "") is True
+
+
+def _may_be_overridden(node: RunningNode, given: GivenParameter) -> bool:
+    """Return whether a launch file of Nav2 may override use_sim_time of a file."""
+    return given.given_at is not None and node.place in node.chain
 
 
 def _off(
