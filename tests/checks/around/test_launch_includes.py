@@ -50,6 +50,18 @@ def test_what_is_right_is_left_alone(package: Path) -> None:
     assert [p for p in check(package) if p.severity != "info"] == []
 
 
+def test_an_include_passes_on_what_the_files_below_it_declare(package: Path) -> None:
+    launch = package / LAUNCH
+    own = 'os.path.join(share, "launch", "other.launch.py")'
+    slam = "[FindPackageShare('nav2_bringup'), '/launch/slam_launch.py']"
+    text = launch.read_text().replace(own, slam)
+    launch.write_text(text.replace('{"use_sim_time": "', '{"slam_params_file": "'))
+    codes = {p.code for p in check(package)}
+    assert "launch-argument-unknown" not in codes
+    launch.write_text(launch.read_text().replace("slam_params_f", "the_params_f"))
+    assert "launch-argument-unknown" in {p.code for p in check(package)}
+
+
 @pytest.mark.parametrize(
     ("right", "wrong", "cause"),
     [
