@@ -240,3 +240,17 @@ def test_controllers_of_one_robot_are_not_for_a_model_with_two(
     (package / "control.yaml").write_text(mine)
     codes = [problem.code for problem in check(package / "r.urdf")]
     assert codes.count("control-interface") == found
+
+
+@pytest.mark.parametrize(("joint", "found"), [("lift", 0), ("arms_joint", 1)])
+def test_controllers_may_be_for_another_robot_of_the_package(
+    package: Path, joint: str, found: int
+) -> None:
+    wrong = YAML.replace("- arm_joint", f"- {joint}")
+    (package / "control.yaml").rename(package / "truck_control.yaml")
+    (package / "truck_control.yaml").write_text(wrong)
+    codes = [p.code for p in check(package / "r.urdf")]
+    assert codes.count("control-interface") == 1
+    (package / "truck.urdf").write_text(MODEL.replace('"r"', '"truck"'))
+    codes = [p.code for p in check(package / "r.urdf")]
+    assert codes.count("control-interface") == found

@@ -23,6 +23,7 @@ _OF_ROBOT = {
     "gazebo-joint": _WHEELS,
     "frame-unknown": _BASES,
     "frame-two-parents": _BASES,
+    "control-interface": ("joints",),
 }
 """Code → the parameters whose values only one robot has."""
 _SIZES = frozenset({"footprint-size", "drive-wheel-separation", "drive-wheel-radius"})
@@ -63,7 +64,9 @@ def of_this_robot(
     ours = [f for f in around.yaml_files if foreign.isdisjoint(_words([f.shown]))]
     read = {file.shown for file in around.yaml_files}
     for problem in found:
-        names = _OF_ROBOT.get(problem.code)
+        # A name that one edit corrects is of this robot.
+        is_slip = problem.code == "control-interface" and problem.edits
+        names = None if is_slip else _OF_ROBOT.get(problem.code)
         if names and problem.file in read:
             fitting = (f for f in ours if (problem.code, f.shown) not in wrong)
             is_ours = any(problem.file == file.shown for file in ours)
