@@ -564,6 +564,35 @@ def test_a_file_that_a_launch_file_makes_or_looks_for_may_be_missing(
     assert codes(package) == []
 
 
+@pytest.mark.parametrize(
+    "source", ["from other import made\n", "made = getattr(module, 'made')\n"]
+)
+def test_a_function_of_another_module_may_make_the_file(
+    copied: Copied, source: str
+) -> None:
+    package = copied("gz")
+    path = 'os.path.join(share, "config/{}ekf.yaml")'
+    edit(package / LAUNCH, path.format(""), path.format("my_"))
+    assert codes(package) == ["launch-file-missing"]
+    edit(package / LAUNCH, path.format("my_"), f"made({path.format('my_')})")
+    edit(package / LAUNCH, "import os\n", f"import os\n{source}")
+    assert "launch-file-missing" not in codes(package)
+
+
+def test_a_launch_file_may_have_another_folder_once_it_is_installed(
+    copied: Copied,
+) -> None:
+    package = copied("gz")
+    include = '<include file="$(find-pkg-share cart_description)/launch/x.launch.xml"/>'
+    (package / "launch" / "inner").mkdir()
+    (package / "launch" / "inner" / "x.launch.xml").write_text("<launch/>")
+    (package / "launch" / "all.launch.xml").write_text(f"<launch>{include}</launch>")
+    assert codes(package) == ["launch-file-missing"]
+    line = "install(FILES launch/inner/x.launch.xml DESTINATION share/x/launch)\n"
+    edit(package / "CMakeLists.txt", "ament_package()", f"{line}ament_package()")
+    assert "launch-file-missing" not in codes(package)
+
+
 def test_the_shape_of_an_arm_does_not_count_for_the_footprint(copied: Copied) -> None:
     package = copied("gz")
     arm = (

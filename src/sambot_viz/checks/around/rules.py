@@ -112,7 +112,6 @@ from sambot_viz.checks.around.launch_files.paths import (
     missing_files,
     missing_plugin_files,
     misspelt_endings,
-    world_names,
 )
 from sambot_viz.checks.around.launch_files.programs import unknown_programs
 from sambot_viz.checks.around.launch_files.uses import (
@@ -126,6 +125,7 @@ from sambot_viz.checks.around.launch_files.words import (
     unknown_elements_of_launch,
     unknown_keywords,
 )
+from sambot_viz.checks.around.launch_files.worlds import world_names
 from sambot_viz.checks.around.package_files.build_file import (
     commands_after_the_end,
     folders_as_files,

@@ -1,4 +1,4 @@
-"""Check files, worlds and parameter files that launch files name."""
+"""Check files and parameter files that launch files name."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from pathlib import Path, PurePosixPath
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import YamlFile
-from sambot_viz.checks.around.gazebo.spawning import spawned_with
+from sambot_viz.checks.around.launch_files.imports import modules
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.misspelt import is_misspelt
-from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
+from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.slips.vocabulary import is_one_slip
@@ -32,7 +32,6 @@ OWN_NAMES = {
 
 _FOUND = re.compile(r"\$\(find ([\w-]+)\)/([^$\s]+)")
 _ASKING = frozenset({"exists", "isfile", "is_file", "write_text"})
-_WORLD = re.compile(r"<world\s+name\s*=\s*[\"']([^\"']+)[\"']")
 _IN_SHARE = re.compile(
     r"(FILES|PROGRAMS|DIRECTORY[^)]*/)\s[^)]*DESTINATION\s+[\"']?(share|\$\{CMAKE_INSTALL_"
     r"DATADIR\})/\$\{PROJECT_NAME\}/?[\"']?\s*\)"
@@ -40,7 +39,6 @@ _IN_SHARE = re.compile(
 """A command that installs files or the contents of a folder into the share folder."""
 _FILE = re.compile(r"[\w/.-]*\.(\w{4,5})")
 _ENDINGS = frozenset({"rviz", "urdf", "world", "xacro", "yaml"})
-_WORLDS = (".sdf", ".world", ".wbt")
 _MODELS = (".urdf", ".xacro", ".sdf")
 
 
@@ -58,6 +56,8 @@ def missing_files(around: Surroundings) -> Iterator[Problem]:
             continue
         read = _read_by(launch, fact, package) if launch is not None else None
         near = read or _near(below, package.paths)
+        if near is not None and _is_installed_as(below, near, package):
+            continue
         others = [p.name for p in around.packages if _has_instead(p, below, package)]
         if near is not None:
             yield _missing(
@@ -110,7 +110,26 @@ def _has_instead(other: Package, below: str, package: Package) -> bool:
 def _python_paths(around: Surroundings) -> Iterator[Fact]:
     """Yield the paths in Python files, each at the expression that builds it."""
     for launch in around.launches:
-        yield from launch.paths
+        given = _given_to_others(launch)
+        yield from (fact for fact in launch.paths if fact.place not in given)
+
+
+def _given_to_others(launch: LaunchFile) -> set[Place]:
+    """Return the places of what functions of other modules get: they may make it."""
+    steps = [s for s in launch.tree.body if isinstance(s, ast.ImportFrom)]
+    names = {alias.asname or alias.name for s in steps for alias in s.names}
+    foreign = {name for name in names - modules().keys() if name[:1].islower()}
+    found: set[Place] = set()
+    for call in ast.walk(launch.tree):
+        func = call.func if isinstance(call, ast.Call) else None
+        if not isinstance(func, ast.Name):
+            continue
+        made = launch.origin(func)
+        is_found = isinstance(made, ast.Call) and call_name(made.func) == "getattr"
+        if is_found or func.id in foreign:
+            inner = ast.walk(call)
+            found.update(launch.place(n) for n in inner if isinstance(n, ast.expr))
+    return found
 
 
 def _missing(
@@ -125,6 +144,19 @@ def _missing(
         f"the launch file uses {below}, which {whose} does not have; {instead}",
         fix,
     )
+
+
+def _is_installed_as(below: str, near: str, package: Package) -> bool:
+    """Return whether the build may install a file of the same name at a path."""
+    folder, _, name = below.rpartition("/")
+    if name != PurePosixPath(near).name:
+        return False
+    cmake, setup = package.text("CMakeLists.txt"), package.setup
+    if cmake is not None or setup is None:
+        return cmake is not None and near in cmake
+    target = f"share/{package.name}/{folder}".rstrip("/")
+    to_folder = (e.files.known or () for e in setup.data_files if e.target == target)
+    return not setup.installs_only_known or any(near in files for files in to_folder)
 
 
 def _renamed(place: Place, below: str, near: str) -> Fix:
@@ -226,43 +258,6 @@ def _near(below: str, paths: Sequence[str]) -> str | None:
 def _has(file: YamlFile, name: str) -> bool:
     parts = {part for key in file.nodes for part in key.split("/")}
     return not parts or name in parts or any("*" in part for part in parts)
-
-
-def world_names(around: Surroundings) -> Iterator[Problem]:
-    """Report a robot for a world with another name than the world file has."""
-    for launch in around.launches:
-        worlds = dict(_worlds(launch, around))
-        named = list(spawned_with(launch, "world")) if len(worlds) == 1 else []
-        for fact in named:
-            (name, place), *_ = worlds.items()
-            if fact.value != name and " " in name:
-                yield Problem.at(
-                    place,
-                    "warning",
-                    "launch-world-name",
-                    f"the name of the world, {name}, has a blank, which names in "
-                    f"Gazebo must not have; {where(fact.place, place)} puts the robot "
-                    f"into {fact.value}: it does not appear",
-                    f'write name="{fact.value}"',
-                )
-            elif fact.value != name:
-                yield Problem.at(
-                    fact.place,
-                    "warning",
-                    "launch-world-name",
-                    f"the robot is put into the world {fact.value}, but the world is "
-                    f"called {name} ({where(place, fact.place)}): it does not appear",
-                    write(fact.place, fact.value, name),
-                )
-
-
-def _worlds(launch: LaunchFile, around: Surroundings) -> Iterator[tuple[str, Place]]:
-    for fact in launch.paths:
-        shown = around.shown(fact.value) or ""
-        text = around.text(fact.value) if shown.endswith(_WORLDS) else None
-        for match in _WORLD.finditer(text or ""):
-            line = (text or "").count("\n", 0, match.start()) + 1
-            yield match[1], Place(shown, line)
 
 
 def misspelt_endings(around: Surroundings) -> Iterator[Problem]:
