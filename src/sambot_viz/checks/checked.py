@@ -253,6 +253,7 @@ def _of_config(
     from sambot_viz.checks.around.workspace import shown
     from sambot_viz.checks.config_against_robot import (
         check_config,
+        description_topics,
         lists_links,
         moveit_draws_robot,
         unknown_references,
@@ -279,6 +280,10 @@ def _of_config(
             or (is_guess and not lists_links(around.robot, config))
         ),
         "setup-no-robot-model": lambda: moveit_draws_robot(config),
+        "setup-description-topic": lambda: all(
+            any(end.publishes for _, end in around.running.endpoints(topic))
+            for topic in description_topics(config)
+        ),
     }
     if not is_guess or lists_links(around.robot, config):
         is_published = partial(may_be_published, around)

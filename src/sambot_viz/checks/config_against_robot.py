@@ -247,11 +247,25 @@ def unknown_references(
         )
 
 
-def _description(display: DisplayConfig, file: str | None) -> Iterator[Problem]:
+def description_topics(config: RvizConfig) -> set[str]:
+    """Return the full names of the topics from which displays read the robot."""
+    values = (_topic_value(d) for d in _all(config.displays) if _is_robot_model(d))
+    names = (_text(value).lstrip("/") for value in values)
+    return {f"/{name}" for name in names if name}
+
+
+def _topic_value(display: DisplayConfig) -> Node | None:
+    """Return the topic of a display's robot; None where it reads a file."""
     topic = display.node.get("Description Topic")
     if topic is None or display.node.text("Description Source") == "File":
+        return None
+    return topic.get("Value") if isinstance(topic, Map) else topic
+
+
+def _description(display: DisplayConfig, file: str | None) -> Iterator[Problem]:
+    topic, value = display.node.get("Description Topic"), _topic_value(display)
+    if topic is None or value is None:
         return
-    value = topic.get("Value") if isinstance(topic, Map) else topic
     name = _text(value)
     if name and name.rpartition("/")[2] != _DESCRIPTION:
         place = _place(file, value)

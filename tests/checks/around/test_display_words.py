@@ -352,6 +352,18 @@ def test_the_robot_is_read_from_the_namespace_that_has_it(
         assert f"Value: {right}\n" in edited
 
 
+@pytest.mark.parametrize(("remapped", "found"), [("cart", 0), ("truck", 1)])
+def test_the_description_may_be_remapped(
+    package: Path, remapped: str, found: int
+) -> None:
+    launched(package, f'<remap from="robot_description" to="{remapped}_description"/>')
+    path = package / CONFIG
+    topic = "Description Topic:\n        Value: /cart_description\n      Enabled"
+    path.write_text(path.read_text().replace("Enabled", topic, 1))
+    codes = [p.code for p in check(package)]
+    assert codes.count("setup-description-topic") == found
+
+
 def launched(package: Path, parameter: str, attributes: str = "") -> None:
     """Write a launch file that starts the robot and RViz."""
     (package / "launch").mkdir()
