@@ -63,14 +63,15 @@ def undeclared_arguments(around: Surroundings) -> Iterator[Problem]:
                 yield _undeclared(name, place, file)
 
 
-def declared_in(package: Package) -> dict[str, Mapping[str, Place]]:
+def declared_in(package: Package) -> Mapping[str, Mapping[str, Place]]:
     """Return the launch files of a package, with the arguments that each declares.
 
     Without those that its included files declare.
     """
-    files = {launch.shown: _of_python(launch) for launch in package.launches}
-    files |= {root.place.file: _of_frontend(root) for root in package.frontends}
-    return {shown: file.declared for shown, file in files.items()}
+    files = {launch.shown: _declared(launch) for launch in package.launches}
+    return files | {
+        root.place.file: _of_frontend(root).declared for root in package.frontends
+    }
 
 
 def _undeclared(name: str, place: Place, file: _File) -> Problem:
@@ -101,11 +102,15 @@ def _undeclared(name: str, place: Place, file: _File) -> Problem:
     )
 
 
-def _of_python(launch: LaunchFile) -> _File:
-    declared = {
+def _declared(launch: LaunchFile) -> dict[str, Place]:
+    return {
         launch.text(call, "name", 0) or "": call.place
         for call in launch.called("DeclareLaunchArgument")
     }
+
+
+def _of_python(launch: LaunchFile) -> _File:
+    declared = _declared(launch)
     used = [
         (launch.text(call, "variable_name", 0) or "", call.place)
         for call in launch.called("LaunchConfiguration")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from sambot_viz.checks.around.files.launch_values import SHARE
@@ -36,7 +36,12 @@ class IncludedFile:
 
 def includes_without_argument(around: Surroundings) -> Iterator[Problem]:
     """Report arguments under another name than the included file declares them."""
-    every = {name for file in _declared(around).values() for name in file}
+    every = {
+        name
+        for package in around.packages
+        for file in declared_in(package).values()
+        for name in file
+    }
     for launch in around.launches:
         for call in launch.called("IncludeLaunchDescription"):
             table = call.value("launch_arguments")
@@ -74,15 +79,6 @@ def _meant(name: str, file: IncludedFile) -> str | None:
     return near or (alike[0] if len(alike) == 1 and name not in known else None)
 
 
-def _declared(around: Surroundings) -> dict[str, Mapping[str, object]]:
-    """Return the launch files of the packages, with the arguments they declare."""
-    return {
-        path: declared
-        for package in around.packages
-        for path, declared in declared_in(package).items()
-    }
-
-
 def included_file(
     around: Surroundings, launch: LaunchFile, call: Call
 ) -> IncludedFile | None:
@@ -98,7 +94,7 @@ def included_file(
     if named is None or own is None:
         return None
     shown = named[0].shown(own)
-    declared = _declared(around).get(shown)
+    declared = declared_in(named[0]).get(shown)
     return None if declared is None else IncludedFile(name, tuple(declared))
 
 
