@@ -208,6 +208,17 @@ def test_a_joint_that_is_unlike_all_others_is_named(
     assert all(hint in p.hint for p in problems)
 
 
+def test_a_joint_that_mimics_another_has_no_command(tmp_path: Path) -> None:
+    model = tmp_path / "robot.urdf"
+    text = _controlled(ALIKE, ALIKE, ALIKE[1:])
+    model.write_text(text)
+    assert "command_interface" in check(model)[0].hint
+    at = text.rindex("</joint>", 0, text.index("<ros2_control"))
+    first = text[text.index('<joint name="') + 13 :].partition('"')[0]
+    model.write_text(f'{text[:at]}<mimic joint="{first}"/>{text[at:]}')
+    assert check(model) == []
+
+
 def test_an_interface_twice_was_meant_to_be_the_one_that_others_have(
     tmp_path: Path,
 ) -> None:

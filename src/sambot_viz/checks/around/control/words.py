@@ -76,7 +76,7 @@ def words_of_control(robot: Robot) -> Iterator[Problem]:
                     yield from _attribute(interface, "name", _INTERFACES, what)
         yield from _in_attributes(part)
         yield from _hardware(part)
-        yield from _unlike_others(part)
+        yield from _unlike_others(part, robot)
         yield from _without_state(part)
 
 
@@ -145,17 +145,23 @@ def _hardware(part: Element) -> Iterator[Problem]:
                 )
 
 
-def _unlike_others(part: Element) -> Iterator[Problem]:
-    """Report interfaces that a joint has twice, or lacks while all others have them."""
+def _unlike_others(part: Element, robot: Robot) -> Iterator[Problem]:
+    """Report interfaces that a joint has twice, or lacks while all others have them.
+
+    A joint that mimics another one must not have a command.
+    """
     joints = part.find_all("joint")
-    usual = [_interfaces(joint) for joint in joints if joint.find("param") is None]
+    mimics = {name for name, joint in robot.joints.items() if joint.mimic is not None}
+    free = [joint for joint in joints if joint.get("name") not in mimics]
+    usual = [_interfaces(joint) for joint in free if joint.find("param") is None]
     for joint in joints:
         own = _interfaces(joint)
         for at, each in enumerate(own):
             if each in own[:at]:
                 yield _again(joint, each, usual)
         others = [found for found in usual if set(found) != set(own)]
-        same = len(usual) - len(others) == 1 and len(others) > 1
+        is_one = joint in free and len(usual) - len(others) == 1
+        same = is_one and len(others) > 1
         lacks = [each for each in others[0] if each not in own] if same else []
         if len(set(map(frozenset, others))) == 1 and len(lacks) == 1:
             ((tag, name),) = lacks
