@@ -226,7 +226,11 @@ def test_a_launch_file_of_ros_1_is_told_once(package: Path) -> None:
     (package / "launch/old.launch").write_text(old)
     (problem,) = check(package)
     assert problem.severity == "info"
-    assert "written for ROS 1" in problem.message
+    assert "this launch file is written for ROS 1" in problem.message
+    gone = old.replace("$(find c)", "$(find robot)/config/robott.rviz")
+    (package / "launch/older.launch").write_text(gone)
+    (problem,) = check(package)
+    assert "old.launch and older.launch are launch files written" in problem.message
 
 
 def test_what_an_included_file_declares_is_declared(package: Path) -> None:

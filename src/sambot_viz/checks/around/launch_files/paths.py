@@ -11,6 +11,7 @@ from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.launch_files.imports import modules
+from sambot_viz.checks.around.launch_files.words import of_ros1
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -46,10 +47,13 @@ def missing_files(around: Surroundings) -> Iterator[Problem]:
     """Report files that a launch file names wrongly."""
     python = {launch.shown: launch for launch in around.launches}
     known: set[tuple[str, str]] = set()
+    old = {root.place.file for each in around.packages for root in of_ros1(each)}
     for fact in (*_python_paths(around), *around.running.paths):
         package, below = around.named(fact.value) or (None, "")
         key, launch = (fact.place.file, fact.value), python.get(fact.place.file)
         if package is None or key in known or "*" in below or ".." in below:
+            continue
+        if fact.place.file in old:
             continue
         known.add(key)
         if (launch and _makes_files(launch)) or not _is_missing(below, package):

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.words import WordKind, WrittenWord, misspelt
+from sambot_viz.checks.around.workspace import Package
+from sambot_viz.checks.rule import listed
 from sambot_viz.edits import (
     rename_attribute,
     rename_element,
@@ -87,24 +89,43 @@ def unknown_commands(around: Surroundings) -> Iterator[Problem]:
                     owner = f"{owner}_{word}".strip("_")
 
 
+def of_ros1(package: Package) -> list[Element]:
+    """Return the launch files with words that only ROS 1 has."""
+    found: list[Element] = []
+    for root in package.frontends:
+        used = {word for element in root.iter() for word in _used(element)}
+        if _OLD & used and not _NEW & used:
+            found.append(root)
+    return found
+
+
+def _of_ros1(roots: Sequence[Element]) -> Problem:
+    """Report all of a package at once: it comes from ROS 1 as a whole."""
+    names = [root.place.file.rpartition("/")[2] for root in roots]
+    one = len(roots) == 1
+    which = "this launch file is" if one else f"{listed(names, 3)} are launch files"
+    them = "it" if one else "them"
+    return Problem.at(
+        roots[0].place,
+        "info",
+        "launch-code",
+        f"{which} written for ROS 1, which has other elements and attributes: ros2 "
+        f"launch stops with {them}",
+        f"write {them} for ROS 2, or delete {them}",
+    )
+
+
 def unknown_elements_of_launch(around: Surroundings) -> Iterator[Problem]:
     """Report words of XML and YAML launch files that launch does not know."""
     for package in around.packages:
+        old = of_ros1(package)
+        if old:
+            yield _of_ros1(old)
         for root in package.frontends:
-            elements = list(root.iter())
-            used = {word for element in elements for word in _used(element)}
-            if _OLD & used and not _NEW & used:
-                yield Problem.at(
-                    root.place,
-                    "info",
-                    "launch-code",
-                    "this launch file is written for ROS 1, which has other elements "
-                    f"and attributes: {_STOPS}",
-                    "write it for ROS 2, or delete it",
-                )
+            if root in old:
                 continue
             is_xml = not root.place.file.endswith((".yaml", ".yml"))
-            for element in elements:
+            for element in root.iter():
                 yield from misspelt(_attributes(element, is_xml), _ATTRIBUTE)
                 yield from misspelt(_substitutions(element), _SUBSTITUTION)
                 yield from misspelt(_children(element, is_xml), _ELEMENT)
