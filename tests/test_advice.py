@@ -89,3 +89,10 @@ def test_a_hint_that_is_not_certain_stays_one(
     text: str, hint: str, tmp_path: Path
 ) -> None:
     assert edited(tmp_path, text, hint, 1, 1) == text
+
+
+def test_only_xml_has_tags(tmp_path: Path) -> None:
+    file = tmp_path / "a.yaml"
+    file.write_text("- <space>one\n- <space>two\n")
+    problem = Problem("warning", "c", "m", "write one", str(file), 1, 3)
+    assert with_edits([problem])[0].edits == ()

@@ -12,7 +12,7 @@ import posixpath
 import re
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
@@ -26,6 +26,7 @@ from sambot_viz.unsaved import unsaved_text
 _ENCODING = re.compile(
     rb"""\s*<\?xml\b[^>]{0,200}?\bencoding\s*=\s*["']([\w.-]+)["']"""
 )
+_WITHOUT_TAGS = (".py", ".yaml", ".yml", ".rviz", ".txt")
 _NAME = re.compile(r"<([^\s<>/=\"']+)")
 _ATTRIBUTE = re.compile(r"""\s+([^\s<>/=\"']+)\s*=\s*(?:"([^"<]*)"|'([^'<]*)')""")
 _END = re.compile(r"\s*(/?)>")
@@ -495,10 +496,12 @@ class SourceFile:
     Attributes:
         text: decoded, without a byte order mark, with its line ends.
         encoding: by which it is encoded again.
+        is_markup: False for a form in which < begins no tag.
     """
 
     text: str
     encoding: str
+    is_markup: bool = True
 
     def edit(self, place: Place, extent: Extent, new: str) -> Edit:
         """Return the edit that writes a text into the file of a place."""
@@ -557,7 +560,7 @@ class SourceFile:
 
     def tag(self, offset: int) -> Tag | None:
         """Read the start tag that begins at an offset; None when there is none."""
-        name = _NAME.match(self.text, offset)
+        name = _NAME.match(self.text, offset) if self.is_markup else None
         if name is None:
             return None
         names: dict[str, Extent] = {}
@@ -600,7 +603,7 @@ class SourceFile:
 def source_of(file: str) -> SourceFile | None:
     """Return what is in a file; None when it cannot be read as text."""
     if (text := unsaved_text(file)) is not None:
-        return _of_text(text)
+        return _of_text(text, not file.endswith(_WITHOUT_TAGS))
     try:
         stat = os.stat(file)
         if not os.path.isfile(file) or stat.st_size > limits.FIXED_FILE.value:
@@ -611,15 +614,16 @@ def source_of(file: str) -> SourceFile | None:
 
 
 @lru_cache(maxsize=8)
-def _of_text(text: str) -> SourceFile:
+def _of_text(text: str, is_markup: bool) -> SourceFile:
     """Return a text that is not saved; its lines are counted once."""
-    return SourceFile(text, "utf-8")
+    return SourceFile(text, "utf-8", is_markup)
 
 
 @lru_cache(maxsize=8)
 def _read(file: str, saved: int, size: int) -> SourceFile:
     """Read a file once for many problems, until it is saved."""
-    return decoded(read_limited(Path(file), limits.FIXED_FILE.value))
+    found = decoded(read_limited(Path(file), limits.FIXED_FILE.value))
+    return replace(found, is_markup=not file.endswith(_WITHOUT_TAGS))
 
 
 def decoded(data: bytes) -> SourceFile:

@@ -265,3 +265,9 @@ def test_controllers_may_be_for_another_robot_of_the_package(
     (package / "truck.urdf").write_text(MODEL.replace('"r"', '"truck"'))
     codes = [p.code for p in check(package / "r.urdf")]
     assert codes.count("control-interface") == found
+
+
+def test_a_word_that_launch_replaces_is_not_judged(package: Path) -> None:
+    yaml = YAML.replace("- arm_joint", "- <robot_namespace>arm_joint")
+    (package / "control.yaml").write_text(yaml)
+    assert CODES.isdisjoint(problem.code for problem in check(package / "r.urdf"))

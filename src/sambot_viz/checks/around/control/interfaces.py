@@ -130,12 +130,15 @@ def _interfaces(
 
 
 def _items(parameter: Parameter) -> Iterator[Fact]:
-    """Yield the texts of a parameter, each with its place."""
+    """Yield the texts of a parameter, each with its place.
+
+    Without those with a <word>, which ReplaceString of Nav2 replaces at the start.
+    """
     written, file = parameter.written, parameter.place.file
     is_list = isinstance(written, yaml.SequenceNode)
     nodes: list[yaml.Node] = written.value if is_list else [written]
     for node in nodes:
-        if isinstance(node, yaml.ScalarNode):
+        if isinstance(node, yaml.ScalarNode) and "<" not in node.value:
             yield Fact(node.value, place_of(node, file))
 
 
