@@ -151,3 +151,20 @@ def test_a_package_whose_files_are_not_here_is_another_one(
     )
     codes = [problem.code for problem in checked(launch, "cart_pkg")]
     assert codes.count("launch-package-unknown") == found
+
+
+@pytest.mark.parametrize(
+    ("package", "found"), [("ros_ign_bridge", 0), ("ros_gz_bridg", 1)]
+)
+def test_a_package_of_another_version_of_ros_is_known(
+    package: str, found: int, checked: Checked
+) -> None:
+    launch = (
+        "from launch import LaunchDescription\n"
+        "from launch_ros.actions import Node\n\n"
+        "def generate_launch_description():\n"
+        f'    node = Node(package="{package}", executable="parameter_bridge")\n'
+        "    return LaunchDescription([node])\n"
+    )
+    codes = [problem.code for problem in checked(launch, "cart_pkg")]
+    assert codes.count("launch-package-unknown") == found

@@ -114,6 +114,7 @@ def test_an_empty_launch_file(copied: Copied) -> None:
     empty.write_text("\n")
     (problem,) = check(package / MODEL)
     assert (problem.code, problem.file) == ("launch-code", str(empty))
+    assert problem.severity == "warning"
     assert problem.hint.startswith("delete the file")
     empty.unlink()
     assert check(package / MODEL) == []

@@ -31,14 +31,14 @@ PREDEFINED = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__"}
 
 
 def empty_launch_files(around: Surroundings) -> Iterator[Problem]:
-    """Report launch files without content."""
+    """Report launch files without content: often nobody starts them yet."""
     for package in around.packages:
         for path in package.ending("launch.py"):
             text = package.text(path)
             if text is not None and not text.strip():
                 yield Problem.at(
                     Place(package.shown(path), 1),
-                    "error",
+                    "warning",
                     _CODE,
                     f"this launch file is empty: ros2 launch stops with it, because it "
                     f"looks for {_ENTRY}",

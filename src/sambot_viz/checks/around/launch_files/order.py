@@ -58,7 +58,8 @@ def late_declarations(around: Surroundings) -> Iterator[Problem]:
                 "launch-argument-unknown",
                 f"the launch argument {name} is declared after its first use "
                 f"({where(launch.place(first.written), launch.shown)}): ros2 launch "
-                "goes through the actions in their order, and stops there",
+                "goes through the actions in their order, and stops there, unless it "
+                "is given",
                 _moved(entry.written, first.written, launch),
             )
 

@@ -101,6 +101,9 @@ def _of_no_package(
     depends = [e.text.strip() for e in root.children] if root is not None else []
     if package and (package in depends or around.files.knows(package)):
         return
+    if package in vocabulary("packages"):
+        # Some version of ROS has it, such as ros_ign_bridge.
+        return
     near = nearest(package, programs, _ALIKE) if package else None
     owner, severity = owners().get(program, ""), "error"
     if near is not None and program in programs[near]:
