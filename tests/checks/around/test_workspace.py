@@ -470,9 +470,23 @@ def test_a_model_gets_the_arguments_that_launch_files_give(
         "<link name=\"${sizes['$(arg size)']}\"/>"
     )
     _write(package, "urdf/a.urdf.xacro", model)
-    assert {p.severity for p in check(package)} == {"error"}
+    assert "error" in {p.severity for p in check(package)}
     _write(package, "launch/a.launch.py", launch)
     assert [p for p in check(package) if p.code.startswith("xacro")] == []
+
+
+@pytest.mark.parametrize(
+    ("name", "found"), [("launch/sim.py", 0), ("launch/a/sim.py", 0), ("sim.py", 1)]
+)
+def test_a_launch_file_may_have_any_name_in_its_folder(
+    tmp_path: Path, name: str, found: int
+) -> None:
+    package = _package(tmp_path / "a_description", launch__a_launch_py="")
+    model = XACRO.format('name="a"><link name="$(arg name)"/>')
+    _write(package, "urdf/a.urdf.xacro", model)
+    _write(package, name, MAPPINGS)
+    codes = [p.code for p in check(package)]
+    assert codes.count("xacro-argument-missing") == found
 
 
 def test_a_model_that_is_whole_only_with_given_arguments_is_right(

@@ -34,6 +34,7 @@ _SKIPPED = frozenset(
     {"build", "install", "log", "meshes", "node_modules", "test", "tests"}
 )
 _YAML = (".yaml", ".yml")
+_ENTRY = "def generate_launch_description"
 _WITHOUT_PARAMETERS = re.compile(r"(^|/)(maps?|meshes)/")
 _OTHER_LAUNCHES = (".launch", ".launch.xml", ".launch.yaml", ".launch.yml")
 _IN_SHARE = re.compile(
@@ -131,8 +132,13 @@ class Package:
         return tuple(self._launches())
 
     def _launches(self) -> Iterator[LaunchFile]:
-        for path in self.ending("launch.py"):
+        named = self.ending("launch.py")
+        # Others in a folder launch, such as launch/sim.py, if they describe a launch.
+        inside = [p for p in self.ending(".py") if "launch" in p.split("/")[:-1]]
+        for path in dict.fromkeys([*named, *inside]):
             text = self.text(path)
+            if path not in named and _ENTRY not in (text or ""):
+                continue
             read = read_launch(text, path, self.shown(path)) if text else None
             if read is not None:
                 yield read
