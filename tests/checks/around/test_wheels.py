@@ -72,6 +72,20 @@ def test_wheels_of_which_one_is_in_front_are_not_on_one_axle(model: Path) -> Non
     assert edited(model, wrong, ORIGIN) == []
 
 
+def test_a_driven_wheel_that_others_mimic_has_several_axles(model: Path) -> None:
+    edited(model, ORIGIN, ORIGIN.replace("-0.12", "${-0.12 * side}"))
+    follower = """<link name="second"/>
+  <joint name="second_joint" type="continuous">
+    <parent link="base_link"/><child link="second"/><axis xyz="0 1 0"/>
+    <mimic joint="left_wheel_joint"/>
+  </joint>
+</robot>"""
+
+    found = edited(model, "</robot>", follower)
+
+    assert "drive-sides" not in {problem.code for problem in found}
+
+
 def test_a_macro_that_forgets_the_side_puts_both_wheels_in_one_place(
     model: Path,
 ) -> None:

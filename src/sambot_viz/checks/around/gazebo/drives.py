@@ -150,11 +150,18 @@ def _sides(
             yield _driven_twice(robot, left, right, taken)
             return
         found = _exchanged(left, right) or _turning(robot, left, right)
-        if found is None and len(lefts) == 1:
+        if found is None and len(lefts) == 1 and not _leads(robot, left, right):
             found = _off_the_axle(left, right)
         if found is not None:
             yield found
             return
+
+
+def _leads(robot: Robot, *wheels: _DriveWheel) -> bool:
+    """Return whether other wheels mimic a driven one: a side has several axles."""
+    names = {wheel.joint.name for wheel in wheels}
+    mimics = [j.mimic for j in robot.joints.values() if j.mimic is not None]
+    return any(mimic.joint in names for mimic in mimics)
 
 
 def _driven_twice(
