@@ -62,6 +62,17 @@ def test_an_include_passes_on_what_the_files_below_it_declare(package: Path) -> 
     assert "launch-argument-unknown" in {p.code for p in check(package)}
 
 
+def test_pairs_of_launch_arguments_are_no_path(package: Path) -> None:
+    launch = package / LAUNCH
+    given = '{"use_sim_time": "true"}.items()'
+    pairs = """[
+            ("world", ["-r -v 4 ", os.path.join(share, "config/ekf.yaml")]),
+            ("use_sim_time", "true"),
+        ]"""
+    launch.write_text(launch.read_text().replace(given, pairs))
+    assert "launch-file-missing" not in {p.code for p in check(package)}
+
+
 @pytest.mark.parametrize(
     ("right", "wrong", "cause"),
     [

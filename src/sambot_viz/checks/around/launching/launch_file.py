@@ -28,7 +28,7 @@ from sambot_viz.errors import Place
 NODES = frozenset({"Node", "LifecycleNode"})
 """Actions that start a node."""
 
-_LISTS = frozenset({"arguments", "cmd", "parameters", "remappings"})
+_LISTS = frozenset({"arguments", "cmd", "launch_arguments", "parameters", "remappings"})
 """Arguments that are lists of texts, not the parts of one text."""
 _JOINS = frozenset({"join", "PathJoinSubstitution"})
 _WRAPPERS = frozenset({"Path", "str", "ParameterValue"})
