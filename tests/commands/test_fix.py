@@ -63,8 +63,8 @@ def answer(
     yield run
 
 
-def fix(path: Path) -> int:
-    return main(["check", "--fix", "--yes", str(path)])
+def fix(path: Path, *flags: str) -> int:
+    return main(["check", "--fix", "--yes", *flags, str(path)])
 
 
 def test_all_edits_are_applied_without_asking(model: Path, capsys: Capture) -> None:
@@ -87,6 +87,24 @@ def test_a_second_run_changes_nothing(model: Path, capsys: Capture) -> None:
     assert capsys.readouterr().out == (
         f"no finding has an edit\n{model}: no problems found\n"
     )
+
+
+def test_infos_are_fixed_only_when_that_is_asked_for(
+    model: Path, capsys: Capture
+) -> None:
+    rate = "<updateRate>9</updateRate>"
+    plugin = f'<plugin name="p" filename="libgazebo_ros_diff_drive.so">{rate}</plugin>'
+    part = f"<gazebo>{plugin}</gazebo>\n</robot>"
+    model.write_text(WRONG.replace("</robot>", part))
+    left = RIGHT.replace("</robot>", part)
+    assert fix(model) == 0
+    assert model.read_text() == left
+    said = capsys.readouterr().out.splitlines()
+    at = said.index(f"2 findings fixed in {model}")
+    assert said[at + 1] == "to fix 1 info too, add --infos"
+    assert fix(model, "--infos") == 0
+    assert model.read_text() == left.replace("updateRate", "update_rate")
+    assert "--infos" not in capsys.readouterr().out
 
 
 def test_each_finding_is_asked_for(
@@ -128,6 +146,8 @@ def test_what_was_answered_before_the_end_is_applied(
     [
         (["--fix"], "--fix asks on a terminal, and there is none; add --yes"),
         (["--yes"], "--yes answers the questions of --fix; give both"),
+        (["--infos"], "--infos says what --fix --yes applies; give all three"),
+        (["--fix", "--infos"], "--infos says what --fix --yes applies; give all three"),
         (["--fix", "--yes", "--format=json"], "does not go with --format json"),
         (["--fix", "--yes", "--format=sarif"], "does not go with --format sarif"),
         (["--fix", "--yes", "--untrusted"], "does not go with --untrusted"),
@@ -409,12 +429,12 @@ def test_each_sample_is_fixed_as_far_as_it_has_edits(
         for path in files:
             path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
         before = [path.read_bytes() for path in files]
-        fix(model)
+        fix(model, "--infos")
         after = [path.read_bytes() for path in files]
         assert (before != after) == (sample.code not in REVEALING), sample.code
         assert all(data.count(b"\n") == data.count(b"\r\n") for data in after)
         capsys.readouterr()
-        fix(model)
+        fix(model, "--infos")
         assert [path.read_bytes() for path in files] == after, sample.code
         said = capsys.readouterr().out
         ends = "not applied: " if sample.code in REVEALING else "no finding has an edit"

@@ -52,7 +52,7 @@ def run(words: list[str]) -> int:
     )
     if given.fix:
         found = check()
-        found = replace(found, problems=_fix(path, found, check, asks=not given.yes))
+        found = replace(found, problems=_fix(path, found, check, given))
         _print(path, found, given.format)
     else:
         with each_file_once():
@@ -62,7 +62,7 @@ def run(words: list[str]) -> int:
 
 
 def _fix(
-    path: Path, found: Checked, check: Callable[[], Checked], *, asks: bool
+    path: Path, found: Checked, check: Callable[[], Checked], given: argparse.Namespace
 ) -> tuple[Problem, ...]:
     """Apply the edits that are wanted; returns the problems that are left."""
     from sambot_viz.commands.fix import Fixing, folders_of
@@ -75,7 +75,9 @@ def _fix(
     def find_problems() -> list[Problem]:
         return [*(known.pop() if known else check()).problems]
 
-    return tuple(Fixing(find_problems, folders, asks=asks).run())
+    infos = given.infos or not given.yes
+    fixing = Fixing(find_problems, folders, asks=not given.yes, infos=infos)
+    return tuple(fixing.run())
 
 
 def _print(path: Path, found: Checked, how: str) -> None:
@@ -92,9 +94,11 @@ def _print(path: Path, found: Checked, how: str) -> None:
 
 def _refuse_what_cannot_be_fixed(given: argparse.Namespace, options: Options) -> None:
     """Raise UsageError where no edit can be applied, or no question asked."""
+    if given.yes and not given.fix:
+        raise UsageError("--yes answers the questions of --fix; give both")
+    if given.infos and not given.yes:
+        raise UsageError("--infos says what --fix --yes applies; give all three")
     if not given.fix:
-        if given.yes:
-            raise UsageError("--yes answers the questions of --fix; give both")
         return
     if given.format != "text":
         raise UsageError(
@@ -133,7 +137,14 @@ def parser() -> Parser:
         "files of the package, and list what is left",
     )
     made.add_argument(
-        "--yes", action="store_true", help="with --fix: apply all edits without asking"
+        "--yes",
+        action="store_true",
+        help="with --fix: apply the edits of errors and warnings without asking",
+    )
+    made.add_argument(
+        "--infos",
+        action="store_true",
+        help="with --fix --yes: apply the edits of infos too",
     )
     return made
 

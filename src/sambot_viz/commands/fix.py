@@ -55,14 +55,21 @@ class Fixing:
         check: finds the problems.
         folders: the folders whose files may be changed.
         asks: whether to ask before each write.
+        infos: whether to apply the edits of infos too.
     """
 
     def __init__(
-        self, check: Callable[[], list[Problem]], folders: Sequence[Path], asks: bool
+        self,
+        check: Callable[[], list[Problem]],
+        folders: Sequence[Path],
+        *,
+        asks: bool,
+        infos: bool = True,
     ) -> None:
         self._check = check
         self._folders = folders
         self._asks = asks
+        self._infos = infos
         self._quits = False
         self._settled: set[object] = set()
         self._made: list[_Made] = []
@@ -76,11 +83,17 @@ class Fixing:
                 problems = self._apply(chosen, problems)
             if self._quits or not chosen:
                 break
-        if not self._settled:
+        left = sum(bool(p.edits) and not self._takes(p) for p in problems)
+        if not self._settled and not left:
             write_out("no finding has an edit")
         elif fixed := sum(each.findings for each in self._made):
             write_out(f"{_counted(fixed, 'finding')} fixed in {self._places()}")
+        if left:
+            write_out(f"to fix {_counted(left, 'info')} too, add --infos")
         return problems
+
+    def _takes(self, finding: Problem) -> bool:
+        return self._infos or finding.severity != "info"
 
     def _places(self) -> str:
         files = {change.file for each in self._made for change in each.changes}
@@ -90,7 +103,7 @@ class Fixing:
         """Show the edits that can be made together, and ask which are wanted."""
         chosen: list[ProblemGroup] = []
         taken: list[Edit] = []
-        groups = [g for g in group_problems(problems) if g.edits]
+        groups = [g for g in group_problems(filter(self._takes, problems)) if g.edits]
         groups = [g for g in groups if _key(g) not in self._settled]
         # Findings in other files may follow from the model, so it comes first.
         for group in list(filter(_is_of_model, groups)) or groups:
