@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ast
 import warnings
+from collections.abc import Iterator
+from typing import NamedTuple
 
 
 def parse_python(text: str | bytes) -> ast.Module | None:
@@ -33,6 +35,40 @@ def compile_error(tree: ast.Module, name: str) -> SyntaxError | None:
     except (ValueError, RecursionError, MemoryError):
         return None
     return None
+
+
+class Import(NamedTuple):
+    """A name that a file imports.
+
+    Attributes:
+        name: the name in the file; "*" for all of a module.
+        module: where it comes from, with dots.
+        member: what it is in the module; None for the module itself.
+        step: the statement.
+    """
+
+    name: str
+    module: str
+    member: str | None
+    step: ast.Import | ast.ImportFrom
+
+
+def imports_in(tree: ast.AST) -> Iterator[Import]:
+    """Yield what some Python imports."""
+    for node in ast.walk(tree):
+        yield from imported_by(node)
+
+
+def imported_by(step: ast.AST) -> Iterator[Import]:
+    """Yield what a statement imports; nothing for one that is no import."""
+    if isinstance(step, ast.Import):
+        for each in step.names:
+            name = each.asname or each.name.partition(".")[0]
+            yield Import(name, each.name, None, step)
+    elif isinstance(step, ast.ImportFrom):
+        for each in step.names:
+            name, module = each.asname or each.name, step.module or ""
+            yield Import(name, module, each.name, step)
 
 
 def call_name(function: ast.expr) -> str:

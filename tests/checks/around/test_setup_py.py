@@ -292,6 +292,21 @@ def test_a_mistake_is_found_at_its_line_and_its_fix_leaves_nothing(
     assert found(package) == []
 
 
+@pytest.mark.parametrize(
+    ("imports", "called"),
+    [("import glob", "glob.glob"), ("import glob as g", "g.glob")],
+)
+def test_a_glob_is_written_by_the_name_that_the_file_imports(
+    imports: str, called: str, package: Path
+) -> None:
+    text = (package / SETUP).read_text().replace(" glob(", f" {called}(")
+    (package / SETUP).write_text(text.replace("from glob import glob", imports))
+    assert found(package) == []
+    edit(package, (SETUP, f"{called}('config/*.yaml')", f"{called}('config/*.yml')"))
+    (problem,) = found(package)
+    assert problem.hint == f"write {called}('config/*.yaml')"
+
+
 def test_setuptools_reads_the_programs_of_a_list_in_the_list(package: Path) -> None:
     programs = (
         "'drive = cart_description.drive:main',\n"

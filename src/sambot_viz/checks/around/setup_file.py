@@ -25,7 +25,12 @@ from sambot_viz.checks.around.launching.python_parts import (
 )
 from sambot_viz.checks.around.launching.python_values import PythonValues, Texts
 from sambot_viz.checks.around.launching.texts import LaunchTexts
-from sambot_viz.checks.launch_files import call_name, parse_python
+from sambot_viz.checks.launch_files import (
+    Import,
+    call_name,
+    imports_in,
+    parse_python,
+)
 from sambot_viz.errors import Place
 
 _ENTRY = re.compile(r"\s*([\w.-]+)\s*=\s*([\w.]+)\s*:\s*([\w.]+)\s*")
@@ -108,6 +113,11 @@ class SetupFile:
         return PythonValues(self.tree, self.shown, calls)
 
     @cached_property
+    def imports(self) -> tuple[Import, ...]:
+        """The names that it imports."""
+        return tuple(imports_in(self.tree))
+
+    @cached_property
     def call(self) -> ast.Call | None:
         """The only call of setup; None when there are none or several."""
         calls = [
@@ -147,13 +157,10 @@ class SetupFile:
 
     def globbed(self, pattern: str) -> str | None:
         """Write a glob as this file can; None when it does not import it."""
-        for node in ast.walk(self.tree):
-            if isinstance(node, ast.ImportFrom) and node.module == "glob":
-                return f"glob('{pattern}')"
-            if isinstance(node, ast.Import) and any(
-                a.name == "glob" for a in node.names
-            ):
-                return f"glob.glob('{pattern}')"
+        for each in self.imports:
+            if each.module == "glob" and each.member in (None, "glob"):
+                called = each.name if each.member else f"{each.name}.glob"
+                return f"{called}('{pattern}')"
         return None
 
     @cached_property

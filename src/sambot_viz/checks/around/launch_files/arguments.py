@@ -127,32 +127,23 @@ def _of_python(launch: LaunchFile) -> _File:
     certain = (
         "" not in declared
         and not any(launch.called(*_SETTING))
-        and not _calls_others(launch.tree)
+        and not _calls_others(launch)
     )
     return _File(
         declared, used, {}, given, "LaunchConfiguration('{}')", certain, bool(includes)
     )
 
 
-def _calls_others(tree: ast.Module) -> bool:
+def _calls_others(launch: LaunchFile) -> bool:
     """Return whether a file calls what another module defines: maybe a declaration."""
-    others: set[str] = set()
-    for node in ast.walk(tree):
-        match node:
-            case ast.ImportFrom(module=module, names=names):
-                modules = [module or ""] * len(names)
-            case ast.Import(names=names):
-                modules = [alias.name for alias in names]
-            case _:
-                continue
-        others |= {
-            alias.asname or alias.name.partition(".")[0]
-            for alias, module in zip(names, modules, strict=True)
-            if module.partition(".")[0] not in _DECLARE_NONE
-        }
+    others = {
+        each.name
+        for each in launch.imports
+        if each.module.partition(".")[0] not in _DECLARE_NONE
+    }
     return any(
         isinstance(part, ast.Name) and part.id in others
-        for node in ast.walk(tree)
+        for node in (ast.walk(launch.tree) if others else ())
         if isinstance(node, ast.Call)
         for part in ast.walk(node.func)
     )

@@ -4,23 +4,33 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from sambot_viz.checks.around.launch_files.code import python_files, stopped
 from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Problem
 
+if TYPE_CHECKING:
+    from sambot_viz.checks.around.launching.launch_file import LaunchFile
+    from sambot_viz.checks.around.setup_file import SetupFile
+
 
 def called_modules(around: Surroundings) -> Iterator[Problem]:
     """Report a call of a module in place of the function in it: glob( … )."""
     for file in python_files(around):
-        imports = [n for n in file.tree.body if isinstance(n, ast.Import)]
-        whole = {a.name: n for n in imports for a in n.names if a.asname is None}
-        for node in ast.walk(file.tree):
+        bound = _bound_otherwise(file)
+        whole = {
+            each.name: each.step
+            for each in file.imports
+            if each.member is None and each.name == each.module
+            if each.name not in bound and each.step in file.tree.body
+        }
+        for node in ast.walk(file.tree) if whole else ():
             called = node.func if isinstance(node, ast.Call) else None
             name = called.id if isinstance(called, ast.Name) else ""
             step = whole.get(name)
-            if called is None or step is None or name in _bound_otherwise(file.tree):
+            if called is None or step is None:
                 continue
             code, stops = stopped(file)
             right = f"from {name} import {name}"
@@ -39,19 +49,11 @@ def called_modules(around: Surroundings) -> Iterator[Problem]:
                 break
 
 
-def _bound_otherwise(tree: ast.Module) -> set[str]:
+def _bound_otherwise(file: LaunchFile | SetupFile) -> set[str]:
     """Return the names that get a value, except those of whole modules."""
-    steps = [n for n in ast.walk(tree) if not isinstance(n, ast.Import)]
-    return {n.id for n in steps if isinstance(n, ast.Name) and not _is_read(n)} | {
-        alias.asname or alias.name
-        for n in steps
-        if isinstance(n, ast.ImportFrom)
-        for alias in n.names
-    }
-
-
-def _is_read(node: ast.Name) -> bool:
-    return isinstance(node.ctx, ast.Load)
+    names = [node for node in ast.walk(file.tree) if isinstance(node, ast.Name)]
+    given = {name.id for name in names if not isinstance(name.ctx, ast.Load)}
+    return given | {each.name for each in file.imports if each.member is not None}
 
 
 def _has_members(name: str, tree: ast.Module) -> bool:

@@ -12,7 +12,7 @@ from sambot_viz.checks.around.launch_files.imports import modules
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.launch_files import call_name
+from sambot_viz.checks.launch_files import call_name, imported_by
 from sambot_viz.edits import write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
 
@@ -298,8 +298,8 @@ def names_in(tree: ast.AST) -> set[str]:
         match node:
             case ast.Name(id=name, ctx=ast.Store() | ast.Del()):
                 found.add(name)
-            case ast.Import(names=names) | ast.ImportFrom(names=names):
-                found.update((a.asname or a.name).partition(".")[0] for a in names)
+            case ast.Import() | ast.ImportFrom():
+                found.update(each.name for each in imported_by(node))
             case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
                 found.add(node.name)
             case ast.arg(arg=name) | ast.ExceptHandler(name=str(name)):

@@ -34,9 +34,9 @@ def wrong_imports(around: Surroundings) -> Iterator[Problem]:
             if isinstance(node, ast.Try)
             for step in ast.walk(node)
         }
-        for node in ast.walk(launch.tree):
-            if isinstance(node, ast.ImportFrom) and id(node) not in tried:
-                yield from _wrong(node, launch)
+        for step in dict.fromkeys(each.step for each in launch.imports):
+            if isinstance(step, ast.ImportFrom) and id(step) not in tried:
+                yield from _wrong(step, launch)
 
 
 def _wrong(node: ast.ImportFrom, launch: LaunchFile) -> Iterator[Problem]:

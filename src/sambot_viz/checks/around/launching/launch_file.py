@@ -22,7 +22,12 @@ from sambot_viz.checks.around.launching.python_parts import (
     place_in,
 )
 from sambot_viz.checks.around.launching.python_values import PythonValues
-from sambot_viz.checks.launch_files import call_name, parse_python
+from sambot_viz.checks.launch_files import (
+    Import,
+    call_name,
+    imports_in,
+    parse_python,
+)
 from sambot_viz.errors import Place
 
 NODES = frozenset({"Node", "LifecycleNode"})
@@ -84,6 +89,11 @@ class LaunchFile:
             if call.name == "DeclareLaunchArgument" and name and default is not None:
                 found.declare(name, as_text(found.of(default)))
         return found
+
+    @cached_property
+    def imports(self) -> tuple[Import, ...]:
+        """The names that it imports."""
+        return tuple(imports_in(self.tree))
 
     @property
     def calls(self) -> list[Call]:
