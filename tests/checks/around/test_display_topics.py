@@ -119,3 +119,18 @@ def test_another_node_may_publish_what_a_display_reads(package: Path) -> None:
     launch.write_text(text.replace(" rviz,", f" rviz,\n{' ' * 12}{node}"))
     _change(package, "Value: /scan", "Value: /lidar")
     assert [p.severity for p in check(package)] == ["info"]
+
+
+def test_two_displays_of_one_topic_have_one_type(package: Path) -> None:
+    display = (
+        "    - Class: rviz_default_plugins/{0}\n      Enabled: true\n      Name: {0}\n"
+        "      Topic: {{Value: {1}}}\n"
+    )
+    config, text = package / CONFIG, (package / CONFIG).read_text()
+    for clouds, said in (("/eye/image_raw", 1), ("/eye/points", 0)):
+        shown = display.format("Image", "/eye/image_raw")
+        shown += display.format("PointCloud2", clouds)
+        config.write_text(text.replace("    - Class", f"{shown}    - Class", 1))
+        found = [p for p in check(package) if p.code == "topic-type"]
+        assert len(found) == said
+        assert all("PointCloud2 shows nothing" in p.message for p in found)

@@ -21,6 +21,7 @@ from sambot_viz.checks.around.topics.read import (
     meant_topic,
     published_topics,
 )
+from sambot_viz.checks.around.topics.two_types import two_types
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Place, Problem, Severity
@@ -50,6 +51,9 @@ def unseen_topics(around: Surroundings) -> Iterator[Problem]:
             (whole_name(node, each.topic.value), each)
             for each in displays_of(node, packages.get)
         ]
+        sent = {topic.topic.value for topic in published}
+        unsent = [t for t in topics if t[0] not in sent and not t[1].is_tool]
+        yield from two_types(unsent)
         for whole, each in topics:
             if each.topic.place not in done and whole.startswith("/"):
                 done.add(each.topic.place)
