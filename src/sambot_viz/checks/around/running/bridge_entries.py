@@ -9,7 +9,8 @@ from typing import NamedTuple
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.running.system import Endpoint
-from sambot_viz.errors import Place, nearest
+from sambot_viz.edits import write
+from sambot_viz.errors import Fix, Place, nearest
 
 DIRECTIONS = ("GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL")
 _TO_ROS, _TO_GZ, _BOTH = DIRECTIONS
@@ -38,6 +39,7 @@ class BridgeEntry(NamedTuple):
         ros_type: its type in ROS.
         gz_type: its type in Gazebo, with the name of the package gz.msgs.
         direction: GZ_TO_ROS, ROS_TO_GZ or BIDIRECTIONAL.
+        arrow: the sign for the direction in an argument; empty for a file.
     """
 
     ros: Fact
@@ -45,6 +47,7 @@ class BridgeEntry(NamedTuple):
     ros_type: Fact
     gz_type: Fact
     direction: Fact
+    arrow: str = ""
 
     @property
     def kind(self) -> str:
@@ -60,6 +63,17 @@ class BridgeEntry(NamedTuple):
     def scoped(self) -> bool:
         """True for a name that Gazebo generates."""
         return bare(self.gz.value).startswith(_SCOPED)
+
+    def turned(self, way: str) -> Fix:
+        """Return the fix that gives it another direction."""
+        said = self.direction
+        if not self.arrow:
+            return write(said.place, said.value, way, hint=f"write direction: {way}")
+        sign = next(sign for sign, each in _ARROWS.items() if each == way)
+        types = self.ros_type.value, self.gz_type.value
+        wrong, right = self.arrow.join(types), sign.join(types)
+        hint = f"write {sign} for {self.arrow} before {types[1]}"
+        return write(said.place, wrong, right, hint=hint)
 
     def endpoints(self, topic: str) -> Iterator[Endpoint]:
         """Yield the publishers and subscriptions of the bridge for it.
@@ -131,5 +145,11 @@ def entries_in(
         if found is not None:
             topic, ros_type, arrow, gz_type = found.groups()
             renamed = (new for old, new in names if bare(old) == bare(topic))
-            texts = (next(renamed, topic), topic, ros_type, gz_type, _ARROWS[arrow])
-            yield BridgeEntry(*(Fact(text, place) for text in texts))
+            yield BridgeEntry(
+                Fact(next(renamed, topic), place),
+                Fact(topic, place),
+                Fact(ros_type, place),
+                Fact(gz_type, place),
+                Fact(_ARROWS[arrow], place),
+                arrow,
+            )

@@ -45,9 +45,7 @@ def bridge_directions(around: Surroundings) -> Iterator[Problem]:
                     f"the bridge carries {entry.gz.value} {said.value}, but "
                     f"{topic.what} {topic.verb} it "
                     f"({where(topic.end.place, said.place)})",
-                    write(
-                        said.place, said.value, right, hint=f"write direction: {right}"
-                    ),
+                    entry.turned(right),
                 )
 
 
