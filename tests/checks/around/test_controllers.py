@@ -168,3 +168,33 @@ def test_a_node_in_a_namespace_does_not_read_the_parameters_of_its_name(
     assert [p.code for p in found] == ["launch-parameters-unread"]
     assert "robot/controller_manager" in found[0].message
     assert found[0].hint == "write /**/controller_manager"
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "DiffDriveController",
+        "diff_drive_controller",
+        "diff_drive_controller::DiffDriveController",
+        "DiffDriveController/diff_drive_controller",
+        "DiffDriveControler",
+    ],
+)
+@pytest.mark.parametrize("in_own_section", [False, True])
+def test_a_class_is_package_and_class(
+    package: Path, wrong: str, *, in_own_section: bool
+) -> None:
+    right, file = "diff_drive_controller/DiffDriveController", "config/controllers.yaml"
+    text = YAML
+    if in_own_section:
+        # A spawner with --param-file reads the class there.
+        launch = LAUNCH.replace('parameters=["config/controllers.yaml"],', "")
+        (package / "launch/robot.launch.py").write_text(launch, "utf-8")
+        text = text[text.index("wheels:\n  ros__") :].replace(
+            "    wheel_sep", f"    type: {right}\n    wheel_sep"
+        )
+    (package / file).write_text(text.replace(right, wrong), "utf-8")
+
+    (problem,) = check(package / "r.urdf")
+
+    assert (problem.code, problem.hint) == ("controller-unknown", f"write {right}")

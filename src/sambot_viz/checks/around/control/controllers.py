@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 
-from sambot_viz.checks.around.files.parameters import Parameter
+from sambot_viz.checks.around.files.parameters import Parameter, controller_types
 from sambot_viz.checks.around.parameters.known import known_parameters
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.known import known_nodes
@@ -14,10 +14,10 @@ from sambot_viz.checks.around.running.system import RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
-from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 
-_MANAGER, _TYPE = "controller_manager", ".type"
+_MANAGER = "controller_manager"
 _WITH_VALUE = frozenset(
     """
     -c --controller-manager -p --param-file -t --controller-type -n --namespace
@@ -34,12 +34,7 @@ _LIKENESS, _LIKE_CLASS = 0.9, 0.5
 
 def declared_controllers(around: Surroundings) -> dict[str, Parameter]:
     """Return the controllers that a controller manager knows, by their names."""
-    return {
-        parameter.name.removesuffix(_TYPE): parameter
-        for parameter in around.parameters
-        if parameter.node.rpartition("/")[2] == _MANAGER
-        and parameter.name.endswith(_TYPE)
-    }
+    return controller_types(around.yaml_files)
 
 
 def _meant(name: str, names: Iterable[str]) -> str | None:
@@ -172,12 +167,31 @@ def unknown_controllers(around: Surroundings) -> Iterator[Problem]:
         near = nearest(kind, alike, _LIKE_CLASS) if kind not in classes else None
         was = f"was:{kind}"
         near = next((name for name, words in classes.items() if was in words), near)
-        if near is not None:
+        whole = [] if near else _whole_classes(kind, classes)
+        if near is not None or whole:
+            first, *more = [near] if near is not None else whole
             yield Problem.at(
                 parameter.value_place,
                 "warning",
                 "controller-unknown",
-                f"{right or package} has no controller {kind}: the controller manager "
-                "cannot load it",
-                write(parameter.value_place, kind, near),
+                f"{kind} is no class of a controller, which is written as "
+                "package/class: the controller manager cannot load it"
+                if whole
+                else f"{right or package} has no controller {kind}: the controller "
+                "manager cannot load it",
+                Fix(f"write {first} or {' or '.join(more)}")
+                if more
+                else write(parameter.value_place, kind, first),
             )
+
+
+def _whole_classes(kind: str, classes: Iterable[str]) -> list[str]:
+    """Return the classes with the words of one that is not package/class."""
+    package, slash, name = kind.partition("/")
+    if slash and package.islower() and name:
+        return []
+    said = [word for word in re.split(r"\W+", kind.lower()) if word]
+    parts = {each: each.lower().split("/") for each in classes}
+    found = [n for n, p in parts.items() if said in (p, p[::-1], p[:1], p[1:])]
+    near = nearest(said[-1] if said else "", [p[1] for p in parts.values()], _LIKENESS)
+    return found or [each for each, (_, last) in parts.items() if last == near]

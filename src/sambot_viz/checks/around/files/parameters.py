@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -16,6 +17,10 @@ from sambot_viz.errors import Place
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _MOST_NAMES = 3
 """Maximum number of keys for namespaces and the name of a node."""
+
+_MANAGER = "controller_manager"
+_CONTROLLER = re.compile(r"contr?ol|broadcast", re.IGNORECASE)
+"""Classes of controllers, and their packages."""
 
 _TRUE, _FALSE = frozenset({"true", "yes", "on"}), frozenset({"false", "no", "off"})
 
@@ -160,6 +165,22 @@ class YamlFile:
                 place = Place(self.shown, key.start_mark.line + 1)
                 entry[key.value] = Fact(value.value, place)
             yield entry
+
+
+def controller_types(files: Iterable[YamlFile]) -> dict[str, Parameter]:
+    """Return the controllers of ros2_control in files: name → its class.
+
+    The class is a parameter of the controller manager, or, for a spawner with
+    --param-file, one of the controller itself.
+    """
+    found: dict[str, Parameter] = {}
+    for parameter in (one for file in files for one in file.parameters):
+        node = parameter.node.rpartition("/")[2]
+        if node == _MANAGER and parameter.name.endswith(".type"):
+            found[parameter.name.removesuffix(".type")] = parameter
+        elif parameter.name == "type" and _CONTROLLER.search(parameter.fact.value):
+            found.setdefault(node, parameter)
+    return found
 
 
 class _Budget:

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import yaml
 
-from sambot_viz.checks.around.files.parameters import Parameter
+from sambot_viz.checks.around.files.parameters import Parameter, controller_types
 from sambot_viz.checks.around.parameters.declared import declared_parameters
 from sambot_viz.checks.around.parameters.known import (
     LISTS,
@@ -21,7 +21,8 @@ from sambot_viz.checks.around.parameters.navigation import filters
 from sambot_viz.checks.around.running.known import known_nodes
 from sambot_viz.checks.around.surroundings import Surroundings
 
-_CLASS_KEYS = ("plugin", "class")
+CLASS_KEYS = ("plugin", "class")
+"""Parameters with the class of a part."""
 Given = Mapping[str, Parameter]
 """Name within a part → parameter."""
 
@@ -93,10 +94,9 @@ def parts_by_node(around: Surroundings) -> tuple[tuple[NodePart, ...], ...]:
     found: list[tuple[NodePart, ...]] = []
     for file in around.yaml_files:
         controllers = {
-            parameter.name.removesuffix(".type"): kind.block | table.common
-            for parameter in file.parameters
-            if parameter.name.endswith(".type")
-            and (kind := table.classes.get(parameter.fact.value))
+            name: kind.block | table.common
+            for name, parameter in controller_types([file]).items()
+            if (kind := table.classes.get(parameter.fact.value))
         }
         for node in file.nodes:
             name = node.rpartition("/")[2]
@@ -147,7 +147,7 @@ def _inside(
     lists = (known for one, known in part.lists() if head in names_in(one))
     named = next(lists, None)
     base = named.base if named is not None else ""
-    said = next((inner[key] for key in _CLASS_KEYS if key in inner), None)
+    said = next((inner[key] for key in CLASS_KEYS if key in inner), None)
     if said is not None:
         kind = table.classes.get(said.fact.value)
         return base, kind.block | _KEYS if kind is not None else None
@@ -156,4 +156,4 @@ def _inside(
     return base, block.parts if block is not None and block.parts.parameters else None
 
 
-_KEYS = ParameterBlock({key: KnownParameter(key, "string") for key in _CLASS_KEYS})
+_KEYS = ParameterBlock({key: KnownParameter(key, "string") for key in CLASS_KEYS})

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.files.parameters import controller_types
 from sambot_viz.checks.around.running.bridge_entries import entries_of_file
 from sambot_viz.checks.around.running.endpoints import with_endpoints
 from sambot_viz.checks.around.running.evaluation import LaunchEvaluation
@@ -77,12 +78,13 @@ def _controllers(
 ) -> Iterator[RunningNode]:
     """Yield the controllers that spawners start."""
     files = [file for package in packages for file in package.yaml_files]
-    types = {p.name: p.fact.value for file in files for p in file.parameters}
+    types = controller_types(files)
     for node in nodes:
         known = known_nodes().nodes.get((node.package, node.executable))
         for name in node.arguments if known and known.does("spawns") else ():
-            kind = types.get(f"{name}.type")
-            if name is not None and kind is not None:
+            declared = types.get(name or "")
+            if name is not None and declared is not None:
+                kind = declared.fact.value
                 given = [p for f in files for p in parameters_for(f, name, None)]
                 yield replace(
                     node,
