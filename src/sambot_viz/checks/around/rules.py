@@ -153,6 +153,10 @@ from sambot_viz.checks.around.package_files.manifest_words import (
     malformed_values,
     unknown_elements,
 )
+from sambot_viz.checks.around.package_files.named_files import (
+    missing_named_files,
+    unknown_targets,
+)
 from sambot_viz.checks.around.package_files.own_names import (
     misspelt_shares,
     setup_name,
@@ -272,6 +276,8 @@ OF_BUILD: tuple[Check, ...] = (
     xacro_py,
     project_name,
     missing_folders,
+    missing_named_files,
+    unknown_targets,
     not_installed,
 )
 """The rules about the build and the installation of one package at a time."""

@@ -66,14 +66,15 @@ class CMakeCommand(NamedTuple):
     @property
     def directories(self) -> tuple[CMakeWord, ...]:
         """The folders of install(DIRECTORY …), relative to the package."""
-        return self._installed("DIRECTORY")
+        return self.installed("DIRECTORY")
 
     @property
     def files(self) -> tuple[CMakeWord, ...]:
         """The files of install(FILES …), relative to the package."""
-        return self._installed("FILES")
+        return self.installed("FILES")
 
-    def _installed(self, kind: str) -> tuple[CMakeWord, ...]:
+    def installed(self, kind: str) -> tuple[CMakeWord, ...]:
+        """Return what install(KIND …) installs, files relative to the package."""
         if self.name != "install" or not self.words or self.words[0].text != kind:
             return ()
         found: list[CMakeWord] = []

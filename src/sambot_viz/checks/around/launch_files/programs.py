@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from functools import cache
 from typing import NamedTuple
 
+from sambot_viz.checks.around.launch_files.built_programs import missing_program
 from sambot_viz.checks.around.launching.launch_file import NODES
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
@@ -62,6 +63,9 @@ def unknown_programs(around: Surroundings) -> Iterator[Problem]:
     for package, program, place, package_place in every_program:
         here = next((p for p in around.packages if p.name == package), None)
         own = None if here is None else _own_programs(here)
+        if here is not None and here.cmake is not None:
+            yield from missing_program(here, program, place)
+            continue
         every = vocabulary("launch_programs").get(package, ())
         known = every if own is None else tuple(own)
         if not known and here is None:
