@@ -162,6 +162,7 @@ from sambot_viz.checks.around.package_files.own_names import (
     setup_name,
     unknown_packages,
 )
+from sambot_viz.checks.around.parameters.copied_inputs import copied_inputs
 from sambot_viz.checks.around.parameters.files import unreadable_parameters
 from sambot_viz.checks.around.parameters.filter_inputs import (
     gaps_in_numbers,
@@ -373,6 +374,7 @@ OF_FILES: tuple[Check, ...] = (
     world_frames,
     shared_frames,
     frames_from_themselves,
+    copied_inputs,
     inputs_without_config,
     values_without_source,
     gaps_in_numbers,

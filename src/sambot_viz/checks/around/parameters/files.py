@@ -7,11 +7,13 @@ from collections.abc import Iterable, Iterator
 import yaml
 
 from sambot_viz.checks.around.files.parameters import Parameter, pairs, place_of
+from sambot_viz.checks.around.parameters.copied_inputs import is_copied
+from sambot_viz.checks.around.parameters.known import known_parameters
 from sambot_viz.checks.around.parameters.node_parts import parts_by_node
 from sambot_viz.checks.around.parameters.text import as_written, fixed, is_open, type_of
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.edits import source_of, together, write_between
+from sambot_viz.edits import source_of, together, write, write_between
 from sambot_viz.errors import Fix, Place, Problem
 
 
@@ -20,7 +22,8 @@ def unreadable_parameters(around: Surroundings) -> Iterator[Problem]:
     parts = (part for each in parts_by_node(around) for part in each)
     known = {id(parameter) for part in parts for parameter, _ in part.known()}
     for file in around.yaml_files:
-        for same in _given_again(file.parameters):
+        others = [p for p in file.parameters if not is_copied(around, p.place)]
+        for same in _given_again(others):
             yield from _entry(same) if len(same) > 1 else [_twice(*same[0])]
         for parameter in file.parameters:
             written = parameter.written
@@ -129,8 +132,23 @@ def _twice(first: Parameter, second: Parameter) -> Problem:
         "parameter-value",
         f"{second.name} is given to {node} twice: {first.fact.value} "
         f"({where(first.place, second.place)}) is not used",
-        "delete one of the two lines",
+        _inner_plugin(first, second) or "delete one of the two lines",
     )
+
+
+def _inner_plugin(first: Parameter, second: Parameter) -> Fix | None:
+    """Return the fix for the plugin inside of a plugin, which has another name."""
+    classes = known_parameters().classes
+    outer, inner = (classes.get(each.fact.value) for each in (first, second))
+    if outer is None or inner is None:
+        return None
+    names = [
+        name
+        for name, known in outer.block.parameters.items()
+        if known.kind == "string" and known.base == inner.base
+    ]
+    last = second.name.rpartition(".")[2]
+    return write(second.place, last, names[0]) if len(names) == 1 else None
 
 
 def _mixed(parameter: Parameter, items: list[yaml.Node]) -> Iterator[Problem]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from sambot_viz.checks.around.files.parameters import Parameter, place_of
+from sambot_viz.checks.around.parameters.copied_inputs import found_copies
 from sambot_viz.checks.around.parameters.known import known_parameters
 from sambot_viz.checks.around.parameters.navigation import StateFilter, filters
 from sambot_viz.checks.around.parameters.text import instead, type_of
@@ -26,6 +27,8 @@ _GROUPS = (
 )
 """What the rows of three values of a configuration are."""
 _ROW = 3
+_PATTERNS = (({0}, {0, 1}, {0, 1, 2}), ({2}, {0, 1, 2}))
+"""Which values of a row are usually used together: of distances, and of angles."""
 
 
 class _SensorMessage(NamedTuple):
@@ -57,6 +60,7 @@ def inputs_without_config(around: Surroundings) -> Iterator[Problem]:
             continue
         block = known_parameters().nodes["filter"]
         meant = {block.meant(name, one.given) for name in one.given}
+        meant |= {f"{copy.new}_config" for copy in found_copies(around)}
         for kind, used in _USED.items():
             for parameter in one.inputs(kind):
                 wanted = f"{parameter.name}_config"
@@ -104,14 +108,18 @@ def _without_source(
         said += f", which {message.name} does not have"
     else:
         return
-    usual = _values(_USED[kind])
     first = items[odd[0] * _ROW] if odd else items[0]
+    place, file = place_of(first, config.place.file), config.place.file
+    if meant := _meant_rows(on, odd, message):
+        yield _exchanged(one, config, meant, message)
+        return
+    usual = _values(_USED[kind])
     wrong = [items[n] for n in sorted(on) if n // _ROW in odd]
-    hint, file = "write false for these values", config.place.file
+    hint = "write false for these values"
     off = together(hint, *(instead(item, file, "false", hint) for item in wrong))
     others = [_GROUPS[row] for row in sorted(message.rows)]
     yield Problem.at(
-        place_of(first, config.place.file),
+        place,
         # What is left is used as it is meant.
         "info" if is_used else "warning",
         "ekf-config",
@@ -127,6 +135,62 @@ def _without_source(
         if is_used
         else f"use {', '.join(others[:-1])} or {others[-1]}, such as "
         f"[{', '.join(usual)}]",
+    )
+
+
+def _meant_rows(
+    on: set[int], odd: Sequence[int], message: _SensorMessage
+) -> dict[int, int]:
+    """Return row without a source → the row beside it that it is meant for.
+
+    That row is empty, and its values are usually used like these: of three angles, all
+    or only the last; of three distances, the first two, or the first, or all. Empty
+    where it is not certain for each row.
+    """
+    found: dict[int, int] = {}
+    for row in odd:
+        pattern = {n % _ROW for n in on if n // _ROW == row}
+        beside = [
+            other
+            for other in (row - 1, row + 1)
+            if other in message.rows - found.keys()
+            and not on & set(range(other * _ROW, other * _ROW + _ROW))
+            and pattern in _PATTERNS[other % 2]
+        ]
+        if len(beside) == 1:
+            found[row] = beside[0]
+    return found if len(set(found.values())) == len(odd) else {}
+
+
+def _exchanged(
+    one: StateFilter,
+    config: Parameter,
+    meant: Mapping[int, int],
+    message: _SensorMessage,
+) -> Problem:
+    """Report rows of values that are one row too high or too low."""
+    written: Any = config.written
+    items, file = list(written.value), config.place.file
+    row, other = next(iter(meant.items()))
+    both = [(one, two) for pair in meant.items() for one, two in (pair, pair[::-1])]
+    hint = (
+        f"exchange these three values with those of {_GROUPS[other]}, the row "
+        f"{'below' if other > row else 'above'}"
+    )
+    changes = [
+        instead(items[to * _ROW + n], file, items[at * _ROW + n].value, hint)
+        for at, to in both
+        for n in range(_ROW)
+        if items[at * _ROW + n].value != items[to * _ROW + n].value
+    ]
+    return Problem.at(
+        place_of(items[row * _ROW], file),
+        "warning",
+        "ekf-config",
+        f"{config.name} uses {_GROUPS[row]}, which {message.name} does not have, and "
+        f"nothing of {_GROUPS[other]}, the row beside it: {one.node} does not use what "
+        "is meant",
+        together(hint, *changes),
     )
 
 

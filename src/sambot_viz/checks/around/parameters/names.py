@@ -13,6 +13,7 @@ from sambot_viz.checks.around.parameters.known import (
     known_parameters,
 )
 from sambot_viz.checks.around.parameters.node_parts import (
+    CLASS_KEYS,
     NodePart,
     names_in,
     parts_by_node,
@@ -33,12 +34,38 @@ def unknown_parameters(around: Surroundings) -> Iterator[Problem]:
         for part in parts:
             for name, parameter in part.given.items() if part.block else ():
                 known = part.block.find(name) if part.block else None
+                if _of_hidden(name, parameter, around):
+                    continue
                 if known is None and part.is_known:
                     yield from _unknown(name, parameter, part, parts)
                 elif known is not None and known.age.successor:
                     last = newest.get(parameter.place.file, 0)
                     yield from _old(parameter, known, part, last)
             yield from _unknown_groups(part)
+
+
+def _of_hidden(name: str, parameter: Parameter, around: Surroundings) -> bool:
+    """Return whether a plugin knows a name that a second plugin of the part hides."""
+    section = parameter.name.removesuffix(name)
+    hidden = _hidden(around).get((parameter.place.file, parameter.node, section), ())
+    return any(kind.block.find(name) is not None for kind in hidden)
+
+
+@lru_cache(maxsize=1)
+def _hidden(
+    around: Surroundings,
+) -> Mapping[tuple[str, str, str], Sequence[PluginClass]]:
+    """Return file, node and part → its plugins that a later one replaces."""
+    found: dict[tuple[str, str, str], list[PluginClass]] = {}
+    for file in around.yaml_files:
+        for parameter in file.parameters:
+            head, _, last = parameter.name.rpartition(".")
+            kind = known_parameters().classes.get(parameter.fact.value)
+            is_last = file.of(parameter.node)[parameter.name] is parameter
+            if last in CLASS_KEYS and kind is not None and not is_last:
+                key = (file.shown, parameter.node, f"{head}." if head else "")
+                found.setdefault(key, []).append(kind)
+    return found
 
 
 def _unknown_groups(part: NodePart) -> Iterator[Problem]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from sambot_viz.checks.around.gazebo.topics import GazeboTopic, model_topics
+from sambot_viz.checks.around.parameters.copied_inputs import as_other_sensor
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.bridge_entries import BridgeEntry, bare
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -150,7 +151,14 @@ def topics_of_other_types(around: Surroundings) -> Iterator[Problem]:
             continue
         if any(p.kind == kind for p in sources):
             continue
-        fitting = [p for p in published if p.kind == kind]
+        own = {u.name for u in used_topics(around) if u.reader == read.reader}
+        fitting = [
+            p
+            for p in published
+            # A node does not read its own topics, and the others once.
+            if p.kind == kind and p.what != read.reader
+            if bare(p.topic.value) not in own
+        ]
         source = sources[0]
         yield Problem.at(
             end.place,
@@ -159,9 +167,10 @@ def topics_of_other_types(around: Surroundings) -> Iterator[Problem]:
             f"{read.node.name} reads {end.written} as "
             f"{kind} for {end.parameter}, but {source.what} publishes it as "
             f"{source.kind} ({where(source.topic.place, end.place)}): nothing arrives",
-            f"write {fitting[0].topic.value}"
+            write(end.place, end.written, fitting[0].topic.value)
             if len(fitting) == 1
-            else f"write a topic of the type {kind}",
+            else as_other_sensor(around, end.parameter, end.place, source.kind)
+            or f"write a topic of the type {kind}",
         )
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from sambot_viz.checks.around.files.gazebo import Fact
+from sambot_viz.checks.around.parameters.copied_inputs import is_copied
 from sambot_viz.checks.around.parameters.navigation import is_open
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.bridge_entries import bare
@@ -179,7 +180,7 @@ def used_topics(around: Surroundings) -> list[ReadTopic]:
         for node in around.running.started
         for end in node.endpoints
         if end.parameter and not end.publishes and not end.in_gazebo
-        if _is_placed(around, node)
+        if _is_placed(around, node) and not is_copied(around, end.place)
     }
     return [read for read in named.values() if read.end.message not in lost]
 
