@@ -77,3 +77,30 @@ def test_a_model_that_cannot_be_loaded_is_reported_with_the_rest(
     status, codes = checked(package, capsys)
     assert status == 1
     assert {"xml-tag-not-closed", "setup-py-name"} <= codes
+
+
+@pytest.mark.parametrize(
+    ("file", "codes", "elsewhere"),
+    [
+        ("rviz/my_bot.rviz", {"setup-fixed-frame"}, 1),
+        ("setup.py", {"setup-py-name"}, 1),
+        ("package.xml", set[str](), 2),
+    ],
+)
+def test_a_file_that_is_no_model_is_checked_with_its_package(
+    package: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    file: str,
+    codes: set[str],
+    elsewhere: int,
+) -> None:
+    monkeypatch.chdir(package)
+    main(["check", file, "--format", "json"])
+    said = json.loads(capsys.readouterr().out)["problems"]
+    assert {problem["code"] for problem in said} == codes
+    assert {problem["file"] for problem in said} <= {file}
+    main(["check", file])
+    text = capsys.readouterr().out
+    assert f"{elsewhere} more finding" in text
+    assert text.endswith("sambot-viz check .\n")

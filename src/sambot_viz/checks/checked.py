@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from sambot_viz.bundled import config_in
 from sambot_viz.checks.around import built_wrongly, wrong_files
 from sambot_viz.checks.copied_names import with_missing_names
+from sambot_viz.checks.file_of_package import package_of_other
 from sambot_viz.checks.launched_models import launched, load_launched, wrong_variants
 from sambot_viz.checks.model_rules import (
     AROUND,
@@ -40,10 +41,14 @@ class Checked:
     Attributes:
         models: the models.
         problems: errors first, then warnings, then notes; each in document order.
+        package: the package of a file that is no model, which was checked with it.
+        elsewhere: number of the problems in other files of that package.
     """
 
     models: tuple[CheckedModel, ...]
     problems: tuple[Problem, ...]
+    package: Path | None = None
+    elsewhere: int = 0
 
 
 class _Loaded(NamedTuple):
@@ -68,6 +73,15 @@ def check_all(
     Raises:
         UsageError: a folder without anything to check, or with several models.
     """
+    package = package_of_other(path) if trusted else None
+    if package is not None:
+        whole = check_all(
+            package,
+            xacro_args=xacro_args,
+            package_path=package_path,
+            workspace=workspace,
+        )
+        return _only_of(path, whole, package)
     targets = find_targets(path, package_path, workspace, trusted=trusted)
     problems: list[Problem] = []
     loaded: list[_Loaded] = []
@@ -95,6 +109,17 @@ def check_all(
         for path in _others(package):
             problems += _of_config(package, path=path)
     return Checked(targets.models, tuple(in_order(problems)))
+
+
+def _only_of(path: Path, whole: Checked, package: Path) -> Checked:
+    """Return the part of the check of a package that is about one of its files."""
+    own = [
+        problem
+        for problem in whole.problems
+        if problem.file is not None and Path(problem.file).absolute() == path.absolute()
+    ]
+    others = len(whole.problems) - len(own)
+    return Checked(whole.models, tuple(own), package, others)
 
 
 @each_file_once()

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from sambot_viz import bundled
 from sambot_viz.commands.command_line import Parser, model_path, parse
 from sambot_viz.errors import Problem, UsageError
-from sambot_viz.files import each_file_once
+from sambot_viz.files import each_file_once, relative_path
 from sambot_viz.options import Options
 from sambot_viz.outlet import can_ask, write_json, write_lines, write_out
 from sambot_viz.problems import group_problems, write_problems
@@ -117,7 +117,7 @@ def parser() -> Parser:
     made = Parser(
         prog="sambot-viz check",
         groups=("model", "check"),
-        model="model file, package folder, or folder of packages",
+        model="model file, package folder, folder of packages, or a file of a package",
         description="List what is wrong with a model and its mesh files, where, and "
         "how to fix it, and with its package: names that differ between it and other "
         "files, its .rviz, launch files and build files. Of a package without a model, "
@@ -162,13 +162,21 @@ def _as_json(found: Checked) -> dict[str, object]:
 
 
 def _write(path: Path, found: Checked) -> None:
-    for one in found.models:
+    models = () if found.package is not None else found.models
+    for one in models:
         if one.opened_by:
             write_out(f"model: {one.model}, which {one.opened_by} opens")
-        elif len(found.models) > 1:
+        elif len(models) > 1:
             write_out(f"model: {one.model}")
     if found.problems:
         write_problems(found.problems, write_out, most=None)
     else:
-        model = found.models[0].model if len(found.models) == 1 else path
+        model = models[0].model if len(models) == 1 else path
         write_out(f"{model}: no problems found")
+    if found.elsewhere:
+        what = "finding is" if found.elsewhere == 1 else "findings are"
+        folder = relative_path(found.package or path)
+        write_out(
+            f"{found.elsewhere} more {what} in other files of its package: sambot-viz "
+            f"check {folder}"
+        )

@@ -36,6 +36,7 @@ CASES = [
     (b"PK\x03\x04\x00\x00\xff\xfe", "model-not-xml", 1, "not XML"),
     ("solid cube\nfacet\n", "model-not-xml", 1, "not XML"),
     ("Panels:\n  - Class: x\n", "model-not-xml", 1, "not XML"),
+    ("Panels:\n  - Frame: <Fixed Frame>\n", "model-not-xml", 1, "config of RViz"),
     ("#!/usr/bin/env python3\nprint()\n", "model-not-xml", 1, "not XML"),
     ('<robot name="로봇"/>'.encode("cp949"), "xml-encoding", 1, "UTF-8"),
     ('<?xml version="1.0" encoding="klingon"?><robot/>', "xml-encoding", 1, "klingon"),

@@ -154,7 +154,8 @@ def _displaced(
     element: Element, kind: ElementType, sensor: Element
 ) -> Iterator[Problem]:
     """Report children that only the sensor around knows, and does not have."""
-    of_sensor = (*model_type().children["link"].children["sensor"].children, *_BESIDE)
+    of_sensor = {*model_type().children["link"].children["sensor"].children, *_BESIDE}
+    of_sensor -= {"frame_id"}  # Gazebo reads it nowhere, and gz_frame_id instead.
     for child in element.children if not kind.open else ():
         is_its_own = child.tag in kind.children
         if (

@@ -14,8 +14,9 @@ from sambot_viz.errors import Problem
 from sambot_viz.geometry import PlainPose, Vector3, xyzw_from_rpy
 from sambot_viz.robot.xml.element import Element
 
-_CLEAR = 0.01
-"""Depth at which a point counts as inside a shape [m]."""
+_CLEAR = 0.1
+"""Depth at which a point counts as inside a shape [m]; Gazebo pushes a robot out of a
+thick floor."""
 
 
 def spawned_into(around: Surroundings) -> Iterator[Problem]:

@@ -28,6 +28,12 @@ _OTHER_FILES: tuple[tuple[str, str, str, str], ...] = (
         "download the raw file",
     ),
     (
+        r"(Panels|Visualization Manager):\s",
+        "model-not-xml",
+        "this is a config of RViz, not a robot: it is not XML",
+        "give the model, and this file with -d",
+    ),
+    (
         r"(?s)[^<]*$|.{0,199}\x00",
         "model-not-xml",
         "this is not XML",
