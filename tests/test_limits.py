@@ -124,6 +124,7 @@ NO_LIMITS = {
         robot/packages/package_index.py _MAX_UP
         checks/consequences.py _MOST
         checks/proven.py _MOST
+        checks/proven_around.py _MOST
         checks/model/rewritten.py _DEEPEST
         robot/xacro/at_calls.py _DEEPEST
         robot/xacro/diagnose/failing_values.py _DEEPEST

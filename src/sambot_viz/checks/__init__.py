@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from sambot_viz.advice import with_edits
 from sambot_viz.checks.model_rules import (
     AROUND,
     RULES,
@@ -79,7 +80,7 @@ def check_robot(
     """
     subject = subject_of(robot, path, mesh)
     found = [*robot.problems, *find_problems(subject, RULES)]
-    found = with_proven_edits(subject, found)
+    found = with_proven_edits(subject, with_edits(found))
     return in_order([*found, *check_around(robot, path)] if around else found)
 
 

@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from sambot_viz.advice import with_edits
 from sambot_viz.bundled import config_in
-from sambot_viz.checks.around import built_wrongly, wrong_files
 from sambot_viz.checks.copied_names import with_missing_names
 from sambot_viz.checks.file_of_package import package_of_other
 from sambot_viz.checks.launched_models import launched, load_launched, wrong_variants
@@ -18,11 +18,14 @@ from sambot_viz.checks.model_rules import (
     RULES,
     find_problems,
     in_order,
+    look,
     subject_of,
     with_proven_edits,
+    without_followers,
 )
 from sambot_viz.checks.proven import lasting
-from sambot_viz.checks.targets import CheckedModel, Targets, find_targets
+from sambot_viz.checks.targets import CheckedModel, find_targets
+from sambot_viz.checks.with_packages import Loaded, alone, proven_of_packages
 from sambot_viz.errors import ConfigError, Problem, RobotError
 from sambot_viz.files import each_file_once, is_below
 from sambot_viz.robot.model import Robot, load_robot
@@ -51,14 +54,6 @@ class Checked:
     elsewhere: int = 0
 
 
-class _Loaded(NamedTuple):
-    """A loaded model, and the problems of the files around it."""
-
-    target: CheckedModel
-    robot: Robot
-    around: tuple[Problem, ...]
-
-
 @each_file_once()
 def check_all(
     path: Path,
@@ -84,7 +79,7 @@ def check_all(
         return _only_of(path, whole, package)
     targets = find_targets(path, package_path, workspace, trusted=trusted)
     problems: list[Problem] = []
-    loaded: list[_Loaded] = []
+    loaded: list[Loaded] = []
     for target in targets.models:
         load = partial(
             load_robot, target.model, package_path=package_path, trusted=trusted
@@ -93,21 +88,24 @@ def check_all(
         try:
             robot = load_launched(load, target, variants[0], given)
         except RobotError as error:
-            problems += with_missing_names(lasting(error.problems, load), target)
+            refused = lasting(with_edits(error.problems), load)
+            problems += with_missing_names(refused, target)
             continue
         subject = subject_of(robot, target.model, None, target.packages)
         of_model = [*_of_files(subject), *find_problems(subject, RULES)]
-        of_model = with_proven_edits(subject, of_model)
+        of_model = with_proven_edits(subject, with_edits(of_model))
         problems += of_model
         problems += wrong_variants(load, target, variants[1:], given, of_model)
-        around = find_problems(subject, AROUND)
-        around += _of_configs(target, robot)
-        loaded.append(_Loaded(target, robot, tuple(around)))
-    problems += _of_packages(targets, loaded)
-    for package in _alone(targets, loaded):
-        problems += _of_config(package)
-        for path in _others(package):
-            problems += _of_config(package, path=path)
+        seen = look(AROUND, subject)
+        around = without_followers(subject, AROUND, seen)
+        configs = with_edits(_of_configs(target, robot))
+        loaded.append(
+            Loaded(target, subject, tuple(around), tuple(seen), tuple(configs))
+        )
+    problems += proven_of_packages(targets, loaded)
+    for package in alone(targets, loaded):
+        for config in (None, *_others(package)):
+            problems += with_edits(_of_config(package, path=config))
     return Checked(targets.models, tuple(in_order(problems)))
 
 
@@ -134,8 +132,10 @@ def problems_around(
     targets = find_targets(model, (), workspace, trusted=trusted, read=read)
     (target,) = targets.models
     subject = subject_of(robot, model, None, target.packages)
-    found = _Loaded(target, robot, tuple(find_problems(subject, AROUND)))
-    return in_order(_of_packages(targets, [found]))
+    seen = look(AROUND, subject)
+    around = without_followers(subject, AROUND, seen)
+    found = Loaded(target, subject, tuple(around), tuple(seen))
+    return in_order(proven_of_packages(targets, [found]))
 
 
 def frame_is_published(
@@ -170,21 +170,6 @@ def frame_is_published(
     return bool(packages) and may_be_published(around, frame)
 
 
-def _of_packages(targets: Targets, loaded: Sequence[_Loaded]) -> list[Problem]:
-    """Return the problems around the models, and of packages without a model."""
-    found = list(targets.notes)
-    for package in _alone(targets, loaded):
-        found += wrong_files(package)
-    for package in targets.packages:
-        of = (one.robot for one in loaded if package in one.target.packages)
-        found += built_wrongly(package, next(of, None))
-    for one in loaded:
-        found += [
-            problem for problem in one.around if _is_certain(problem, one, loaded)
-        ]
-    return found
-
-
 def _of_files(subject: Subject) -> list[Problem]:
     """Return the problems of loading a model, as its installed package has it."""
     if not subject.packages:
@@ -195,30 +180,6 @@ def _of_files(subject: Subject) -> list[Problem]:
     )
 
     return without_installed(subject.robot.problems, subject)
-
-
-def _alone(targets: Targets, loaded: Sequence[_Loaded]) -> list[Package]:
-    """Return the packages that belong to no checked model."""
-    covered = {package for one in loaded for package in one.target.packages}
-    return [package for package in targets.packages if package not in covered]
-
-
-def _is_certain(problem: Problem, one: _Loaded, loaded: Sequence[_Loaded]) -> bool:
-    """Return whether a problem of a shared file is the same for all its models.
-
-    The file may be for one of them.
-    """
-    if problem.file is None or len(loaded) == 1:
-        return True
-    file = Path(problem.file).absolute()
-    if file in {each.absolute() for each in one.robot.files}:
-        return True
-    owner = next((p for p in one.target.packages if p.folder in file.parents), None)
-    return all(
-        any((p.code, p.place) == (problem.code, problem.place) for p in other.around)
-        for other in loaded
-        if owner in other.target.packages
-    )
 
 
 def _of_configs(target: CheckedModel, robot: Robot) -> list[Problem]:

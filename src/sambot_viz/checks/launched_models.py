@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 
+from sambot_viz.advice import with_edits
 from sambot_viz.checks.model_rules import AROUND, RULES, find_problems, subject_of
 from sambot_viz.checks.targets import CheckedModel
 from sambot_viz.errors import Problem, RobotError
@@ -99,7 +100,7 @@ def wrong_variants(
             own = [*robot.problems, *find_problems(subject, (*RULES, *AROUND))]
         words = [f"{name}:={value}" for name, value in variant.items()]
         how = " ".join(words) or "the defaults"
-        for problem in own:
+        for problem in with_edits(own):
             place = (problem.code, problem.place)
             if problem.severity != "info" and place not in places:
                 places.add(place)

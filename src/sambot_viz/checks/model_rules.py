@@ -131,18 +131,24 @@ def subject_of(
 
 def find_problems(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
     """Run rules, and drop consequences of other findings."""
-    look = partial(_look, rules)
-    found = look(subject)
+    return without_followers(subject, rules, look(rules, subject))
+
+
+def without_followers(
+    subject: Subject, rules: Sequence[Rule], found: Sequence[Problem]
+) -> list[Problem]:
+    """Return what rules found without the consequences of other findings."""
     if not found:
         return []
     causes = [p for rule in _CAUSES if rule not in rules for p in rule(subject)]
     causes = with_edits(causes)
     own = set(found)
-    kept = without_consequences(subject, [*causes, *found], look)
+    kept = without_consequences(subject, [*causes, *found], partial(look, rules))
     return [problem for problem in kept if problem in own]
 
 
-def _look(rules: Sequence[Rule], subject: Subject) -> list[Problem]:
+def look(rules: Sequence[Rule], subject: Subject) -> list[Problem]:
+    """Run rules, and keep what follows from others."""
     every = with_edits(problem for rule in rules for problem in rule(subject))
     return at_calls(every, subject.files)
 
@@ -155,10 +161,10 @@ def with_proven_edits(subject: Subject, found: Sequence[Problem]) -> list[Proble
     if not any(problem.edits for problem in found):
         return list(found)
 
-    def look(other: Subject) -> list[Problem]:
-        return [*other.robot.problems, *_look(RULES, other)]
+    def look_again(other: Subject) -> list[Problem]:
+        return [*other.robot.problems, *look(RULES, other)]
 
-    return proven(subject, found, look)
+    return proven(subject, found, look_again)
 
 
 def in_order(problems: Sequence[Problem]) -> list[Problem]:
@@ -171,6 +177,6 @@ def in_order(problems: Sequence[Problem]) -> list[Problem]:
         repeated = (problem.code, problem.place, problem.hint)
         once.setdefault(problem if problem.column is None else repeated, problem)
     return sorted(
-        with_edits(once.values()),
+        once.values(),
         key=lambda p: (_ORDER[p.severity], p.file or "", p.line or 0),
     )

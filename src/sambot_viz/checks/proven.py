@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import replace
 
 from sambot_viz.checks.consequences import Look, edited, edited_texts, looked_again
@@ -20,6 +20,13 @@ from sambot_viz.unsaved import unsaved
 
 _MOST = 4
 """Maximum number of codes whose edits are tried, and of findings of one code."""
+_HIDING = frozenset(
+    """
+    cmake-project-name cmake-unclosed parameters-key parameters-yaml python-syntax
+    setup-py-name
+    """.split()
+)
+"""Codes of findings that keep a file, or rules about it, from being read."""
 
 
 def proven(subject: Subject, found: Sequence[Problem], look: Look) -> list[Problem]:
@@ -93,29 +100,60 @@ def _is_better(
     better = edited(subject, tuple(edit for p in tried for edit in p.edits))
     if better is None:
         return False
-    after = looked_again(look, better)
-    new = [*more(before, after, "error"), *more(before, after, "warning")]
-    # Another fault of the same element is seen only behind this one.
-    lines = {(p.file, p.line) for p in tried}
-    is_worse = any((p.file, p.line) not in lines for p in new)
-    return not is_worse and not stays(tried, after)
+    return not drawback([tried], before, looked_again(look, better))
+
+
+def drawback(
+    tried: Sequence[Sequence[Problem]],
+    before: Sequence[Problem],
+    after: Sequence[Problem],
+    severities: Sequence[Severity] = ("error", "warning"),
+) -> str:
+    """Return why edits make nothing better; empty when they do.
+
+    Args:
+        tried: the findings whose edits are made together, those of a cause each.
+        before: all findings without the edits.
+        after: all findings with them.
+        severities: those of new findings that count.
+    """
+    every = [problem for problems in tried for problem in problems]
+    new = [p for severity in severities for p in _more(before, after, severity)]
+    # Another fault of the same element is seen only behind this one, and one of another
+    # file that has its own edits may be, too.
+    written = {edit.file for p in every for edit in p.edits}
+    excused = Counter((p.file, p.line) for p in every)
+    caused: list[Problem] = []
+    for problem in new:
+        excused[where := (problem.file, problem.line)] -= 1
+        if excused[where] < 0 and not _is_next(problem, written):
+            caused.append(problem)
+    if caused and not any(map(reveals, every)):
+        return f"it leads to another {caused[0].severity}: {caused[0]}"
+    is_there = any(_stays(problems, after) for problems in tried)
+    return "the finding stays" if is_there else ""
+
+
+def _is_next(problem: Problem, written: Collection[str]) -> bool:
+    files = {edit.file for edit in problem.edits}
+    return bool(files) and files.isdisjoint(written)
 
 
 def reveals(problem: Problem) -> bool:
-    """Return whether a part of the model is not seen because of a finding.
+    """Return whether a part of the files is not seen because of a finding.
 
     What is wrong in that part is found only when this is mended.
     """
-    return problem.code.startswith(("xacro-", "xml-"))
+    return problem.code in _HIDING or problem.code.startswith(("xacro-", "xml-"))
 
 
-def stays(tried: Sequence[Problem], after: Sequence[Problem]) -> bool:
+def _stays(tried: Sequence[Problem], after: Sequence[Problem]) -> bool:
     """Return whether all of some findings are still there."""
     left = {_said(problem) for problem in after}
     return all(_said(problem) in left for problem in tried)
 
 
-def more(
+def _more(
     before: Sequence[Problem], after: Sequence[Problem], severity: Severity
 ) -> list[Problem]:
     """Return the findings of a severity whose codes occur more often than before."""

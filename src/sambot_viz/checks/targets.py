@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -73,6 +73,20 @@ class Targets(NamedTuple):
     models: tuple[CheckedModel, ...]
     packages: tuple[Package, ...] = ()
     notes: tuple[Problem, ...] = ()
+
+    def edited(self, files: Collection[Path]) -> Targets:
+        """Return the same targets when some files have other texts; see `Package`."""
+        workspace = self.packages[0].workspace if self.packages else None
+        if workspace is None:
+            return self
+        other = workspace.edited(files)
+
+        def now(packages: Sequence[Package]) -> tuple[Package, ...]:
+            found = (other.at(each.folder) for each in packages)
+            return tuple(package for package in found if package is not None)
+
+        models = (one._replace(packages=now(one.packages)) for one in self.models)
+        return Targets(tuple(models), now(self.packages), self.notes)
 
 
 def find_targets(

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from sambot_viz.checks.proven import more, reveals, stays
-from sambot_viz.errors import Edit, Problem
+from sambot_viz.checks.proven import drawback
+from sambot_viz.errors import Edit, Problem, Severity
 from sambot_viz.fixes import (
     EditRefused,
     FileChange,
@@ -152,7 +152,7 @@ class Fixing:
             after = self._check()
             return after if alone else self._apply_each(groups, after)
         after = self._check()
-        worse = _worse(groups, made, before, after)
+        worse = _worse(groups, before, after)
         if not worse:
             findings = sum(len(group.problems) for group in groups)
             self._note(_Made(findings, tuple(made)))
@@ -213,30 +213,17 @@ def _errors(problems: Sequence[Problem]) -> int:
 
 
 def _worse(
-    groups: Sequence[ProblemGroup],
-    made: Sequence[FileChange],
-    before: Sequence[Problem],
-    after: Sequence[Problem],
+    groups: Sequence[ProblemGroup], before: Sequence[Problem], after: Sequence[Problem]
 ) -> str:
     """Return why edits make nothing better; empty when they do."""
-    new = more(before, after, "error")
-    # An error in place of another one may be seen only without that, and one of
-    # another file that is mended next only once this file is found.
-    written = {change.file for change in made}
-    is_hidden = all(
-        p.edits and written.isdisjoint(edit.file for edit in p.edits) for p in new
-    )
-    is_next = len(groups) == 1 and (_errors(after) <= _errors(before) or is_hidden)
-    if new and not is_next:
-        return f"it leads to another error: {new[0]}"
-    # Behind an error no warning of the model was seen, and behind a warning no other.
-    lines = {(p.file, p.line) for group in groups for p in group.problems}
-    is_seen = not _errors(before) and not any(reveals(g.first) for g in groups)
-    new = more(before, after, "warning") if is_seen else []
-    if new := [p for p in new if (p.file, p.line) not in lines]:
-        return f"it leads to another warning: {new[0]}"
-    is_there = any(stays(group.problems, after) for group in groups)
-    return "the finding stays" if is_there else ""
+    counted: list[Severity] = []
+    # An error in place of another one may be seen only without that.
+    if len(groups) > 1 or _errors(after) > _errors(before):
+        counted.append("error")
+    # Behind an error no warning of the model was seen.
+    if not _errors(before):
+        counted.append("warning")
+    return drawback([group.problems for group in groups], before, after, counted)
 
 
 def _diff(change: FileChange) -> Iterator[Line]:

@@ -181,7 +181,8 @@ def test_the_name_of_a_variable_in_quotation_marks(tmp_path: Path) -> None:
         "'share/robot/launch'", "'share/' + 'package_name' + '/launch'"
     )
     (package / SETUP).write_text(text)
-    problem = next(p for p in check(package) if "quotation marks" in p.message)
+    (problem,) = check(package)
+    assert problem.hint == "write 'share/' + package_name + '/launch'"
     assert undone(package, problem, SETUP) == []
 
 

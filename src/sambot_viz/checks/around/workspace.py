@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterator, Sequence
+from copy import copy
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from sambot_viz import limits
 from sambot_viz.cached import cached_property
@@ -45,6 +46,7 @@ _IN_SHARE = re.compile(
 _SHARE_CALL = re.compile(
     r"(?:FindPackageShare|get_package_share_\w+)\(\s*(?:\w+\s*=\s*)?[\"']([\w.-]+)"
 )
+_T = TypeVar("_T")
 _QUOTED_FILE = re.compile(r"[\"']/?([\w./+-]+\.\w+)[\"']")
 
 
@@ -60,6 +62,7 @@ class Package:
         trusted: False reads no file that a link leads out of the package.
         read: receives each file that the package looks for.
         workspace: finds other packages; None for a folder alone.
+        known: what was read of each file: the way to read it, and its path → that.
     """
 
     folder: Path
@@ -68,10 +71,33 @@ class Package:
     trusted: bool
     read: set[Path]
     workspace: Workspace | None = None
+    known: dict[tuple[str, str], Any] = field(
+        default_factory=dict[tuple[str, str], Any], repr=False
+    )
 
-    @cached_property
+    def _once(self, read: Callable[[str], _T], path: str) -> _T:
+        """Read a file in one way, once."""
+        key = read.__name__, path
+        if key not in self.known:
+            self.known[key] = read(path)
+        return self.known[key]
+
+    def edited(self, workspace: Workspace, files: Collection[Path]) -> Package:
+        """Return the package as it is when some files have other texts; see `unsaved`.
+
+        Only these files are read again.
+        """
+        known = {k: v for k, v in self.known.items() if self.folder / k[1] not in files}
+        is_named = self.folder / "package.xml" in files
+        name = package_name(self.folder) if is_named else self.name
+        return replace(self, name=name or self.name, workspace=workspace, known=known)
+
+    @property
     def paths(self) -> tuple[str, ...]:
         """All files, relative to the package with slashes, without other packages."""
+        return self._once(self._paths, "")
+
+    def _paths(self, _: str) -> tuple[str, ...]:
         return tuple(sorted(self._walk()))
 
     def _walk(self) -> Iterator[str]:
@@ -100,15 +126,9 @@ class Package:
         """Return the files with one of these endings, at most fifty."""
         return [path for path in self.paths if path.endswith(endings)][:50]
 
-    @cached_property
-    def _texts(self) -> dict[str, str | None]:
-        return {}
-
     def text(self, path: str) -> str | None:
         """Return the text of a file; None for an unreadable or very large one."""
-        if path not in self._texts:
-            self._texts[path] = self._read(path)
-        return self._texts[path]
+        return self._once(self._read, path)
 
     def _read(self, path: str) -> str | None:
         file = self.folder / path
@@ -129,50 +149,43 @@ class Package:
     @cached_property
     def launches(self) -> tuple[LaunchFile, ...]:
         """The Python launch files."""
-        return tuple(self._launches())
-
-    def _launches(self) -> Iterator[LaunchFile]:
         named = self.ending("launch.py")
         # Others in a folder launch, such as launch/sim.py, if they describe a launch.
         inside = [p for p in self.ending(".py") if "launch" in p.split("/")[:-1]]
-        for path in dict.fromkeys([*named, *inside]):
-            text = self.text(path)
-            if path not in named and _ENTRY not in (text or ""):
-                continue
-            read = read_launch(text, path, self.shown(path)) if text else None
-            if read is not None:
-                yield read
+        paths = dict.fromkeys([*named, *inside])
+        read = (self._once(self._launch, path) for path in paths)
+        return tuple(launch for launch in read if launch is not None)
 
-    @cached_property
-    def _actions(self) -> dict[str, tuple[Action, ...] | None]:
-        return {}
+    def _launch(self, path: str) -> LaunchFile | None:
+        text = self.text(path)
+        if not path.endswith("launch.py") and _ENTRY not in (text or ""):
+            return None
+        return read_launch(text, path, self.shown(path)) if text else None
 
     def actions(self, path: str) -> tuple[Action, ...] | None:
         """Return the actions of a launch file; None for an unreadable one."""
-        if path not in self._actions:
-            # Import late: many packages have no launch files.
-            from sambot_viz.checks.around.launching.read import read_actions
+        return self._once(self._actions, path)
 
-            launch = next((f for f in self.launches if f.path == path), None)
-            file = next((f for f in self.yaml_files if f.path == path), None)
-            text, shown = self.text(path) or "", self.shown(path)
-            self._actions[path] = (
-                read_actions(text, path, shown, file)
-                if launch is None
-                else launch.values.actions
-            )
-        return self._actions[path]
+    def _actions(self, path: str) -> tuple[Action, ...] | None:
+        # Import late: many packages have no launch files.
+        from sambot_viz.checks.around.launching.read import read_actions
+
+        launch = next((f for f in self.launches if f.path == path), None)
+        if launch is not None:
+            return launch.values.actions
+        file = next((f for f in self.yaml_files if f.path == path), None)
+        return read_actions(self.text(path) or "", path, self.shown(path), file)
 
     @cached_property
     def frontends(self) -> tuple[Element, ...]:
         """The <launch> of each launch file in XML or YAML."""
+        read = (self._once(self._root, path) for path in self.ending(*_OTHER_LAUNCHES))
+        return tuple(root for root in read if root is not None)
+
+    def _root(self, path: str) -> Element | None:
         from sambot_viz.checks.around.launching.read import read_root
 
-        read = (
-            read_root(self.text(path) or "", path, self.shown(path))
-            for path in self.ending(*_OTHER_LAUNCHES)
-        )
-        return tuple(root for root in read if root is not None)
+        return read_root(self.text(path) or "", path, self.shown(path))
 
     @cached_property
     def launch_paths(self) -> dict[str, tuple[str, ...]]:
@@ -224,31 +237,31 @@ class Package:
             if read is not None:
                 yield read
 
-    @cached_property
-    def _yamls(self) -> dict[str, YamlFile | None]:
-        return {}
-
     def yaml(self, path: str) -> YamlFile | None:
         """Return a file of any ending as YAML; None when it is not."""
-        if path not in self._yamls:
-            text = self.text(path)
-            read = read_yaml(text, path, self.shown(path)) if text else None
-            self._yamls[path] = read
-        return self._yamls[path]
+        return self._once(self._yaml, path)
 
-    @cached_property
+    def _yaml(self, path: str) -> YamlFile | None:
+        text = self.text(path)
+        return read_yaml(text, path, self.shown(path)) if text else None
+
+    @property
     def manifest(self) -> Element | None:
         """The root of package.xml; None for a missing or broken one."""
-        name = "package.xml"
+        return self._once(self._manifest, "package.xml")
+
+    def _manifest(self, name: str) -> Element | None:
         try:
             return parse_xml(self.text(name) or "", name)
         except XmlFault:
             return None
 
-    @cached_property
+    @property
     def cmake(self) -> CMakeFile | None:
         """CMakeLists.txt; None for a missing or very long one."""
-        name = "CMakeLists.txt"
+        return self._once(self._cmake, "CMakeLists.txt")
+
+    def _cmake(self, name: str) -> CMakeFile | None:
         text = self.text(name)
         if text is None or len(text) > limits.BUILD_FILE.value:
             return None
@@ -273,10 +286,12 @@ class Package:
             tool.text.strip() for tool in tools
         } == {"catkin"}
 
-    @cached_property
+    @property
     def setup(self) -> SetupFile | None:
         """setup.py; None for a missing, broken or very long one."""
-        name = "setup.py"
+        return self._once(self._setup, "setup.py")
+
+    def _setup(self, name: str) -> SetupFile | None:
         text = self.text(name) if name in self.paths else None
         if text is None or len(text) > limits.BUILD_FILE.value:
             return None
@@ -310,6 +325,7 @@ class Workspace:
     ) -> None:
         self._index = PackageIndex(start, package_path)
         self._start = start
+        self._package_path = package_path
         self._given = PackageIndex(None, given)
         self._chosen = {Path(folder).resolve() for folder in given}
         self._made: dict[Path, Package] = {}
@@ -337,6 +353,20 @@ class Workspace:
                 absolute, name, self.relative, self._trusted, self._read, self
             )
         return self._made[key]
+
+    def edited(self, files: Collection[Path]) -> Workspace:
+        """Return the workspace as it is when some files have other texts.
+
+        See `Package.edited`; which packages are given stays.
+        """
+        other = copy(self)
+        # What is known of the packages is that of their files before.
+        for name in ("given", "_resolver"):
+            other.__dict__.pop(name, None)
+        other._made = {f: p.edited(other, files) for f, p in self._made.items()}
+        if any(p.name != self._made[f].name for f, p in other._made.items()):
+            other._index = PackageIndex(self._start, self._package_path)
+        return other
 
     @cached_property
     def given(self) -> tuple[Package, ...]:
