@@ -616,4 +616,4 @@ def test_the_root_tag_has_only_the_arguments_of_the_launch_file(
 
     codes = {problem.code for problem in check(package)}
 
-    assert ("xacro-argument-missing" in codes) is found
+    assert ("xacro-arg-after-use" in codes) is found

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 from sambot_viz.edits import Extent, source_of, write_path
@@ -12,6 +13,7 @@ from sambot_viz.robot.packages.near_file import near_file
 from sambot_viz.robot.packages.package_index import places_of
 from sambot_viz.robot.slips.vocabulary import is_one_slip, meant
 from sambot_viz.robot.xacro.child_result import XacroFailure
+from sambot_viz.robot.xacro.diagnose.include_order import IncludeOrder
 from sambot_viz.robot.xacro.diagnose.source_files import (
     NamedElement,
     SourceSet,
@@ -38,6 +40,8 @@ _REPAIRS = {
 """Hint → what is wrong in the expression, and what is written for it."""
 
 _WORDS = (
+    (re.compile(r"write (\$\(optenv [^)]+\))$"), "$({})"),
+    (re.compile(r"write (\$\(find [^)]+\)\S*)$"), "$({})"),
     (re.compile(r"did you mean '([\w.-]+)'\? If not"), "{}"),
     (re.compile(r"write (\$[{(][^)}]*[)}])(?=;|$)"), "$({})"),
 )
@@ -99,6 +103,11 @@ class FailedExpansion:
             return f"missing package {failure.missing_package.name}"
         inside = f" in {failure.macros[0][0]}" if failure.macros else ""
         return f"{failure.kind}{inside}: {failure.text}"
+
+    @cached_property
+    def order(self) -> IncludeOrder:
+        """The includes of the model."""
+        return IncludeOrder.of(self.sources)
 
     @property
     def expression(self) -> str:
@@ -215,15 +224,20 @@ class FailedExpansion:
         return "" if folder.is_dir() else f"; the folder {folder} does not exist either"
 
     @property
-    def as_expression(self) -> str:
-        """How a name is written that stands in $(…) alone: "write ${width}; "."""
-        name = self.found[0].strip()
+    def names_in_expressions(self) -> set[str]:
+        """The properties, and the parameters of the macros that are expanded."""
         running = [macro for macro, _ in self.failure.macros]
         known = {p.name for p in self.named("property")}
         for macro in self.named("macro"):
             if macro.name in running:
                 known.update(parameters(macro.params))
-        if name in known:
+        return known
+
+    @property
+    def as_expression(self) -> str:
+        """How a name is written that stands in $(…) alone: "write ${width}; "."""
+        name = self.found[0].strip()
+        if name in self.names_in_expressions:
             return f"write ${{{name}}}; "
         if any(arg.name == name for arg in self.named("arg")):
             return f"write $(arg {name}); "

@@ -21,7 +21,7 @@ from sambot_viz.robot.xacro.diagnose.failed_expansion import (
     parameters,
 )
 from sambot_viz.robot.xacro.diagnose.macro_parameters import renamed_parameter
-from sambot_viz.robot.xacro.diagnose.source_files import NamedElement
+from sambot_viz.robot.xacro.diagnose.source_files import NamedElement, token_place
 
 _BUILT_IN = (
     "acos asin atan atan2 ceil cos cosh degrees e exp fabs float floor fmod hypot inf "
@@ -56,6 +56,11 @@ def undefined_name(failed: FailedExpansion, name: str) -> Problem:
         return _value_as_text(here, without_value)
     if outside:
         return _defined_after_use(here, outside[0])
+    if (called := _namespace_called(here, name)) is not None:
+        return called
+    later = here.order.later("property", name, at) if not known else None
+    if later is not None:
+        return _defined_after_use(here, later)
     code = "xacro-undefined-name"
     local = next((p for p in known if p.prefixed and p.inside), None)
     if local:
@@ -217,13 +222,61 @@ def _defined_after_use(failed: FailedExpansion, thing: NamedElement) -> Problem:
             if thing.kind == "arg"
             else f"write the value of {thing.name} itself in the root tag",
         )
-    include = "" if thing.place.file == at.file else ", or its include,"
+    known_as = failed.order.known_as(thing, at)
+    if known_as != thing.name:
+        return _namespace_forgotten(failed, thing, known_as)
+    use, definition = failed.order.meeting(at, thing.place) or (at, thing.place)
+    what = "the definition" if definition == thing.place else "the include"
+    from_where = f" on {line_in(definition, at)}" if definition != thing.place else ""
+    to = "the include on " if use != at else ""
     return failed.error(
         code,
         f"{thing.name} is used here but defined only on {where}: xacro works from top "
         f"to bottom{failed.trail}",
-        f"move the definition{include} above line {at.line}",
+        f"move {what}{from_where} above {to}{line_in(use, at)}",
     )
+
+
+def _namespace_forgotten(
+    failed: FailedExpansion, thing: NamedElement, known_as: str
+) -> Problem:
+    """Report a name of a file that is included with a namespace, used without it."""
+    ns, at = known_as.rpartition(".")[0], failed.at
+    message = f"{thing.name} is known here only as {known_as}: {thing.place.file} is "
+    message += f'included with ns="{ns}"{failed.trail}'
+    if thing.kind == "macro":
+        tag, right = f"xacro:{thing.name}", f"xacro:{known_as}"
+        fix = rename_element(at, tag, right, f"write <{right} …>")
+        return failed.error("xacro-unknown-macro", message, fix)
+    wrong = rf"(?<![\w.]){re.escape(thing.name)}(?!\w)"
+    fix = failed.rewrite(wrong, known_as, f"write {known_as}")
+    return failed.error("xacro-undefined-name", message, fix)
+
+
+def _namespace_called(failed: FailedExpansion, name: str) -> Problem | None:
+    """Explain the call of a namespace, in which xacro looks for the body of a macro."""
+    ns, here = failed.called, failed.pointing_at(failed.call_place())
+    if here.sources.tag_at(here.at, f"xacro:{ns}") is None and failed.failure.calls:
+        ns, file, line = failed.failure.calls[0]
+        here = failed.pointing_at(Place(file, line))
+    include = next((i for i in here.order.includes if i.ns == ns), None)
+    call = here.sources.tag_at(here.at, f"xacro:{ns}")
+    source = here.sources.get(here.at.file)
+    if name != "body" or include is None or call is None or source is None:
+        return None
+    here = here.pointing_at(token_place(source, here.at.file, call))
+    macros = [m for m in here.named("macro") if m.place.file == include.file]
+    given = {attribute.name for attribute in call.attributes}
+    fitting = [m for m in macros if given <= {*parameters(m.params)}]
+    likely = [m for m in fitting if m.name == ns] or fitting
+    message = f"{ns} is no macro: {line_in(include.place, here.at)} gives this "
+    message += f"namespace to {include.file}"
+    known = ", ".join(f"xacro:{ns}.{m.name}" for m in macros)
+    fix: str | Fix = f"call a macro of it: {known}" if known else "call a macro of it"
+    if len(likely) == 1:
+        right = f"xacro:{ns}.{likely[0].name}"
+        fix = rename_element(here.at, f"xacro:{ns}", right, f"write <{right} …>")
+    return here.error("xacro-unknown-macro", message, fix)
 
 
 def _value_of(failed: FailedExpansion, argument: NamedElement) -> str:
@@ -245,6 +298,9 @@ def unknown_macro(failed: FailedExpansion, name: str) -> Problem:
         return _prefix_forgotten(here, same[0])
     if same:
         return _defined_after_use(here, same[0])
+    later = here.order.later("macro", name, at)
+    if later is not None:
+        return _defined_after_use(here, later)
     elsewhere = failed.sources.neighbours_with_macro(name)
     if elsewhere:
         there = elsewhere[0].place
@@ -255,12 +311,13 @@ def unknown_macro(failed: FailedExpansion, name: str) -> Problem:
             include_before(here.at, there.file),
         )
     message = f"the macro {name} does not exist{here.trail}"
-    return here.error("xacro-unknown-macro", message, _near_macro(name, macros, at))
+    return here.error("xacro-unknown-macro", message, _near_macro(here, name))
 
 
-def _near_macro(name: str, macros: list[NamedElement], at: Place) -> str | Fix:
-    tag, own = f"xacro:{name}", meant(name, OWN_TAGS)
-    places = {m.name: m.place for m in macros if m.prefixed}
+def _near_macro(failed: FailedExpansion, name: str) -> str | Fix:
+    at, tag, own = failed.at, f"xacro:{name}", meant(name, OWN_TAGS)
+    macros = [m for m in failed.named("macro") if m.prefixed]
+    places = {failed.order.known_as(m, at): m.place for m in macros}
     near = nearest(name, places)
     if near:
         hint = f"did you mean {near} ({line_in(places[near], at)})?"
@@ -286,14 +343,21 @@ def undefined_argument(failed: FailedExpansion, name: str) -> Problem:
     same = next((a for a in known if a.name == name), None)
     if same is not None and not same.prefixed:
         return _prefix_forgotten(here, same)
-    if same is not None and same.place.file == at.file and same.place.line > at.line:
-        return _defined_after_use(here, same)
-    near = nearest(name, sorted({a.name for a in known}))
-    meant_one = f"did you mean $(arg {near})? If not, " if near else ""
-    hint = f"{meant_one}give it on the command line: {name}:=…, or a default in the "
-    hint += f'file: <xacro:arg name="{name}" default="…"/>'
+    later = here.order.later("arg", name, at)
+    if later is not None:
+        return _defined_after_use(here, later)
+    near = nearest(name, sorted({a.name for a in known if a.name != name}))
+    if same is not None:
+        hint = f"{line_in(same.place, at)} declares it where xacro does not get: move "
+        hint += "it before all macros and conditions"
+        fix: str | Fix = hint
+    elif name in failed.names_in_expressions:
+        fix = write(at, f"$(arg {name})", f"${{{name}}}", hint=f"write ${{{name}}}")
+    else:
+        meant_one = f"did you mean $(arg {near})? If not, " if near else ""
+        hint = f"{meant_one}give it on the command line: {name}:=…, or a default in "
+        hint += f'the file: <xacro:arg name="{name}" default="…"/>'
+        fix = write(at, name, near, hint=hint) if near else hint
     return here.error(
-        "xacro-argument-missing",
-        f"the argument {name} has no value{here.trail}",
-        write(here.at, name, near, hint=hint) if near else hint,
+        "xacro-argument-missing", f"the argument {name} has no value{here.trail}", fix
     )
