@@ -138,3 +138,25 @@ def test_a_renamed_parameter_is_written_wherever_the_old_name_is(
     assert problem.hint.startswith("write name for prefix at all 3 places")
     model.write_text(mended(problem, model))
     assert not [p for p in check(model) if p.severity == "error"]
+
+
+def test_degrees_of_one_call_with_a_namespace_are_named_in_this_call(
+    tmp_path: Path,
+) -> None:
+    part = """<xacro:macro name="eye" params="at rpy"><link name="${at}"/>
+<joint name="${at}_joint" type="fixed"><parent link="base_link"/>
+<child link="${at}"/><origin xyz="0 0 0.1" rpy="${rpy}"/></joint></xacro:macro>"""
+    (tmp_path / "eye.xacro").write_text(f"{HEAD}{part}</robot>")
+    calls = """<xacro:include filename="eye.xacro" ns="sensor"/>
+<xacro:sensor.eye at="a" rpy="0.0 0.0 12.5"/>
+<xacro:sensor.eye at="b" rpy="0 0 ${radians(30)}"/>
+"""
+    problems, model = found(tmp_path, BASE + calls, "rpy-in-degrees")
+    (problem,) = problems
+    assert problem.file == str(model)
+    assert 'at="a" rpy="0 0 0.21817"' in mended(problem, model)
+    assert (
+        model.read_text()
+        .splitlines()[problem.line - 1]
+        .startswith('<xacro:sensor.eye at="a"')
+    )

@@ -123,3 +123,28 @@ def test_a_decimal_comma_in_sdf_is_named_at_the_property(tmp_path: Path) -> None
     (problem,) = check(model)
 
     assert (problem.line, problem.hint) == (3, 'write value="1.5"')
+
+
+def test_a_minus_before_a_negative_property_is_named_at_the_property(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "robot.urdf.xacro"
+    text = MODEL.replace('"${at}"', '"-${radius} 0 0"')
+    (tmp_path / "wheel.xacro").write_text(WHEEL)
+    file.write_text(text.replace('radius" value="0.1"', 'radius" value="-0.1"'))
+
+    (problem,) = (p for p in check(file) if p.code == "number-malformed")
+
+    assert problem.line == 4
+    assert problem.hint.startswith('write value="0.1"; or, if it has to be negative')
+
+
+def test_a_minus_before_a_negative_sum_goes_into_the_expression(tmp_path: Path) -> None:
+    wrong = '"-${radius - 1} 0 0"'
+    file = tmp_path / "robot.urdf.xacro"
+    (tmp_path / "wheel.xacro").write_text(WHEEL)
+    file.write_text(MODEL.replace('"${at}"', wrong))
+
+    (problem,) = (p for p in check(file) if p.code == "number-malformed")
+
+    assert problem.hint == "write ${-(radius - 1)} for -${radius - 1}"

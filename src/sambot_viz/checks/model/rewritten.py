@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from sambot_viz.checks.rule import number
 from sambot_viz.edits import Extent, SourceFile, Tag, source_of
 from sambot_viz.errors import Edit, Place
+from sambot_viz.robot.xacro.macro_texts import is_call
 
 _PART = re.compile(r"\$\{([^}]*)\}|[^\s$]+")
 _NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*(?!\s*\()")
@@ -91,7 +92,7 @@ class Rewriting:
 
 def _given(source: SourceFile, tag: Tag, by: str, name: str) -> Extent | None:
     """Return the place where a tag sets a property or a macro's parameter."""
-    if source.text[tag.name.start : tag.name.end] != by:
+    if not is_call(source.text[slice(*tag.name)], by.removeprefix("xacro:")):
         return None
     if by != "xacro:property":
         return tag.values.get(name)

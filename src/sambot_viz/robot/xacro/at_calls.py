@@ -37,6 +37,7 @@ _CALL = re.compile(r", from the macro call on (?:line (\d+)|(.+):(\d+))$")
 _HERE = re.compile(r"(?<=\()line (?=\d)")
 _NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e-?\d+)?(?![\w.])")
 _WORD = re.compile(r"[A-Za-z]\w+")
+_QUOTED = re.compile(r'"([^"]*)"')
 _BEFORE, _BEHIND = r"(?<![A-Za-z0-9<])(?<!</)", r"(?![A-Za-z0-9])(?!\w*=)"
 """What is around a name, or a part of one, that is no name of an element."""
 _VERBS = ("write ", "add ")
@@ -157,8 +158,14 @@ class _Move:
         pieces = list(dict.fromkeys(v for v in values if v is not None))
         if len(pieces) == 1 or len({piece.text for piece in pieces}) == 1:
             return pieces
-        numbers = set(map(float, _NUMBER.findall(self.problem.message)))
-        found = [p for p in pieces if self._value(p.text) in numbers]
+        message = self.problem.message
+        numbers = set(map(float, _NUMBER.findall(message)))
+        lists = [_numbers(text) for text in _QUOTED.findall(message)]
+        found = [
+            p
+            for p in pieces
+            if self._value(p.text) in numbers or (_numbers(p.text) or ()) in lists
+        ]
         return found if len(found) == 1 else []
 
     def _is_the_call(self, call: CallText) -> bool:
@@ -261,3 +268,11 @@ def _new(problem: Problem) -> str:
 
 def _near(one: float, other: float) -> bool:
     return abs(one - other) <= 1e-4 * abs(one)
+
+
+def _numbers(text: str) -> tuple[float, ...] | None:
+    """Return the numbers of a list; None where something else is in it."""
+    try:
+        return tuple(float(part) for part in text.split())
+    except ValueError:
+        return None

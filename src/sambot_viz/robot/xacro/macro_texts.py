@@ -102,7 +102,7 @@ def sources(files: Iterable[str]) -> list[tuple[str, SourceFile]]:
 
 
 def calls_of(name: str, files: Sequence[tuple[str, SourceFile]]) -> list[CallText]:
-    """Return the calls of a macro.
+    """Return the calls of a macro, those with a namespace too: <xacro:ns.name>.
 
     Args:
         name: of the macro.
@@ -110,16 +110,22 @@ def calls_of(name: str, files: Sequence[tuple[str, SourceFile]]) -> list[CallTex
     """
     calls: list[CallText] = []
     for file, source in files:
-        if f"<xacro:{name}" not in source.text:
+        if name not in source.text:
             continue
         for tag in tags_in(source):
-            if source.text[slice(*tag.name)] == f"xacro:{name}":
+            if is_call(source.text[slice(*tag.name)], name):
                 extent = Extent(tag.name.start - 1, tag.end)
                 values = {
                     key: Written(file, source, at) for key, at in tag.values.items()
                 }
                 calls.append(CallText(Written(file, source, extent), values))
     return calls
+
+
+def is_call(tag: str, name: str) -> bool:
+    """Return whether an element with this name calls a macro."""
+    prefix, _, called = tag.partition(":")
+    return prefix == "xacro" and (called == name or called.endswith(f".{name}"))
 
 
 def property_value(name: str, files: Sequence[tuple[str, SourceFile]]) -> float | None:

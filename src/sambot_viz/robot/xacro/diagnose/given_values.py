@@ -25,6 +25,8 @@ _AROUND = re.compile(r"(?<=[\">])[^\"<>]+(?=\"|</)")
 _BARE = re.compile(r"(?<![\w.$}{])[A-Za-z_]\w*(?![\w.}])")
 _USE = re.compile(r"\$(?:\{([^}]*)\}|\(\s*arg\s+([^)]*)\))")
 _NAME = re.compile(r"[A-Za-z_]\w*")
+_MINUS = re.compile(r"(?<![\w}])-\$\{([^}]*)\}")
+_NEGATIVE = re.compile(r"\s*-[\d.]+\s*")
 _DEFAULT = re.compile(r"(\w+):?=(\S+)")
 _LOOKS_LIKE_A_NUMBER = re.compile(r"\s*[+-]?[.,]?\d")
 
@@ -87,6 +89,10 @@ def name_given_values(
     kept: list[Problem] = []
     for problem in problems:
         causes = _causes(problem, sources, given)
+        twice = None if causes else _minus_twice(problem, sources, given)
+        if twice is not None:
+            kept.append(twice)
+            continue
         for cause, bad in causes:
             there = found.get(cause)
             if there is None or there.severity != "error":
@@ -107,6 +113,33 @@ def _report(problem: Problem, cause: _Given, bad: BadNumber) -> Problem:
         file=cause.place.file,
         line=cause.place.line,
         column=cause.place.column,
+    )
+
+
+def _minus_twice(
+    problem: Problem, sources: SourceSet, given: Sequence[_Given]
+) -> Problem | None:
+    """Report a minus before an expression whose value is negative."""
+    minus = _MINUS.search(_written(problem, sources))
+    if problem.code not in _NUMBERS or "--" not in problem.message or minus is None:
+        return None
+    values = [one for one in given if one.name == minus[1].strip()]
+    if len(values) != 1 or not _NEGATIVE.fullmatch(values[0].value):
+        hint = f"write ${{-({minus[1]})}} for {minus[0]}"
+        return replace(problem, hint=hint, edits=())
+    (one,) = values
+    used = Place(problem.file or "", problem.line or 0)
+    return replace(
+        problem,
+        message=f"{one.written(one.value)} of {one.owner} is negative, and "
+        f"{line_in(used, one.place)} writes {minus[0]}, which becomes "
+        f"-{one.value.strip()} and is not a number; ROS refuses the model",
+        hint=f"write {one.written(one.value.strip().removeprefix('-'))}; or, if it "
+        f"has to be negative, ${{-{one.name}}} for {minus[0]}",
+        file=one.place.file,
+        line=one.place.line,
+        column=one.place.column,
+        edits=(),
     )
 
 
