@@ -132,3 +132,44 @@ def test_the_ends_of_a_joint_are_exchanged_again(
     text = RIGHT_MODEL.replace(right, wrong)
 
     assert mended(tmp_path, text, code) == RIGHT_MODEL
+
+
+MIRRORED = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:property name="half" value="0.1"/>
+<link name="base_link"><visual><geometry><box size="0.4 0.2 0.1"/></geometry>
+</visual></link>
+<xacro:macro name="wheel" params="side y"><link name="${side}_wheel"><visual>
+<geometry><sphere radius="0.05"/></geometry></visual></link>
+<joint name="${side}_joint" type="continuous"><origin xyz="0 ${y} 0"/>
+<parent link="base_link"/><child link="${side}_wheel"/><axis xyz="0 1 0"/></joint>
+</xacro:macro>
+<xacro:wheel side="left" y="LEFT"/>
+<xacro:wheel side="right" y="RIGHT"/>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("left", "wrong", "right"),
+    [
+        ("${half + 0.03}", "${-half + 0.03}", "${-(half + 0.03)}"),
+        ("${half/2 - 0.01}", "${-half/2 - 0.01}", "${-(half/2 - 0.01)}"),
+        ("${half}", "${half}", "${-half}"),
+        ("${half + 0.03}", "${half + 0.03}", "${-(half + 0.03)}"),
+        ("0.12", "0.12", "-0.12"),
+    ],
+)
+def test_a_call_for_the_other_side_has_all_of_its_sign(
+    left: str, wrong: str, right: str, tmp_path: Path
+) -> None:
+    text, model = MIRRORED.replace("LEFT", left), tmp_path / "r.urdf.xacro"
+    model.write_text(text.replace("RIGHT", right))
+    codes = ("wheel-unlike-twin", "wheels-in-one-place")
+    assert not [p for p in check(model) if p.code in codes]
+    model.write_text(text.replace("RIGHT", wrong))
+
+    (problem,) = (p for p in check(model) if p.code in codes)
+
+    assert problem.line == 11
+    mended = apply_edits(problem.edits, model.read_text())
+    assert mended == text.replace("RIGHT", right)

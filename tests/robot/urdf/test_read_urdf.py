@@ -155,6 +155,21 @@ def test_a_mistake_that_ros_accepts_is_drawn_and_reported(
     assert all(p.hint for p in problems)
 
 
+@pytest.mark.parametrize(
+    ("third", "hint"),
+    [
+        ('<mimic joint="j"/>', 'write joint="j"'),
+        ("", "delete the <mimic> of one of them"),
+    ],
+)
+def test_a_joint_that_mimics_itself_gets_the_only_one_beside_it(third: str, hint: str):
+    other = '<link name="{0}"/><joint name="j{0}" type="continuous"><parent link="a"/>'
+    other += '<child link="{0}"/>{1}</joint>'
+    text = joint("") + other.format("c", '<mimic joint="jc"/>')
+    problems = load(text + other.format("d", third)).problems
+    assert [p.hint for p in problems if p.code == "mimic-ring"] == [hint]
+
+
 @pytest.mark.parametrize("leader", ["zz", "j", "i"])
 def test_the_mimic_of_a_joint_that_cannot_move_is_read_by_nobody(leader: str):
     """joint_state_publisher skips the joint before it looks at <mimic>."""

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from sambot_viz.checks.clues import Clues, guess
+from sambot_viz.checks.model.side_of_call import lost_bracket
 from sambot_viz.checks.rule import Subject, axis_text, number
 from sambot_viz.checks.wheel_clues import is_rotor, shapes_of
 from sambot_viz.edits import exchange_parts, write_part
@@ -52,6 +53,9 @@ def unlike_twins(subject: Subject) -> Iterator[Problem]:
     difference is a slip. Other wheels decide which of the two is wrong.
     """
     for twins in _pairs(subject.robot):
+        if twins.left.place == twins.right.place:
+            yield from _not_mirrored(twins, subject.files)
+            continue
         found = [p for look in _LOOKS for p in look(twins)]
         if len(found) == 1:
             yield found[0]
@@ -68,9 +72,27 @@ def _pairs(robot: Robot) -> Iterator[_Twins]:
         right = next((robot.joints[n] for n in names if n in robot.joints), left)
         if right is left or not _is_wheel(right) or right.parent != left.parent:
             continue
-        if left.place != right.place:
-            # A macro makes both alike.
-            yield _Twins(robot, left, right)
+        yield _Twins(robot, left, right)
+
+
+def _not_mirrored(twins: _Twins, files: Sequence[str]) -> Iterator[Problem]:
+    """Report twins of one macro, alike but for the number that their calls give."""
+    ys = [twins.robot.at_start[joint.child].position[1] for joint in twins[1:]]
+    if abs(ys[0] + ys[1]) <= _OFF * max(map(abs, ys)):
+        return
+    found = lost_bracket(twins.left, twins.right, files)
+    if found is not None:
+        place, fix = found
+        one, other = twins.left.child, twins.right.child
+        yield Problem.at(
+            place,
+            "warning",
+            _CODE,
+            f"the wheels {one} and {other} are not on opposite sides: y = "
+            f"{number(ys[0])} m and {number(ys[1])} m; the minus in this call is for "
+            "the first part only",
+            fix,
+        )
 
 
 def _is_wheel(joint: Joint) -> bool:

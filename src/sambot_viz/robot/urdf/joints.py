@@ -293,11 +293,26 @@ def _report_ring(
         if len(chain) == 1
         else f"these joints mimic each other in a ring: {names}"
     )
+    leader = _only_leader(joint, joints) if len(chain) == 1 else None
     findings.error(
         "mimic-ring",
         f"{what}; joint_state_publisher would stop",
-        "delete the <mimic> of one of them",
+        f'write joint="{leader.name}"'
+        if leader
+        else "delete the <mimic> of one of them",
         element,
         "joint",
     )
     return set(chain)
+
+
+def _only_leader(joint: Joint, joints: Mapping[str, Joint]) -> Joint | None:
+    """Return the only joint that is made like one, on the same link, and is free."""
+    found = [
+        other
+        for other in joints.values()
+        if other is not joint
+        and other.mimic is None
+        and (other.type, other.parent) == (joint.type, joint.parent)
+    ]
+    return found[0] if len(found) == 1 else None
