@@ -33,6 +33,7 @@ from sambot_viz.checks.model.physics import (
     missing_inertia,
     zero_mass,
 )
+from sambot_viz.checks.model.prefixed_names import names_without_prefix
 from sambot_viz.checks.model.proportion import lengths_out_of_proportion
 from sambot_viz.checks.model.sensor_words import (
     beside_sensors,
@@ -84,6 +85,7 @@ RULES: tuple[Rule, ...] = (
     exchanged_joint,
     names_that_differ_in_case,
     names_with_spaces,
+    names_without_prefix,
     unused_macros,
     inertia_on_root,
     missing_inertia,
