@@ -641,6 +641,13 @@ def test_a_caster_in_the_air_is_named_where_the_robot_needs_it(
         assert checked(cart(caster=f"0.2 0 {height}"), "wheel-not-on-ground") == []
 
 
+def test_a_caster_of_a_negative_size_is_not_also_in_the_air(checked: Checked) -> None:
+    before, _, after = cart(caster="0.2 0 0.05").rpartition('"0.05"')
+    text = f'{before}"-0.03"{after}'
+    assert checked(text, "wheel-not-on-ground") == []
+    assert len(checked(text, "size-not-positive")) == 1
+
+
 @pytest.mark.parametrize(
     ("body", "why"),
     [

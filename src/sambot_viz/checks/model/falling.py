@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from sambot_viz.checks.clues import guess
 from sambot_viz.checks.model.axles import wheels_in_one_place
+from sambot_viz.checks.model.slips import sizes_not_positive
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.checks.wheel_clues import is_rotor
 from sambot_viz.errors import Problem
@@ -36,11 +37,11 @@ def falls_over(subject: Subject) -> Iterator[Problem]:
 
     Only certain cases count. All shapes are known, and all links with collision shapes
     have a mass. Three links touch the ground, two of them wheels; or only two wheels
-    do, and a caster is above the ground. Two wheels in one place explain the fall, and
-    another rule reports them.
+    do, and a caster is above the ground. Two wheels in one place, or a size that is
+    not positive, explain the fall, and other rules report them.
     """
     robot, unknown = subject.robot, False
-    if any(wheels_in_one_place(subject)):
+    if any(wheels_in_one_place(subject)) or any(sizes_not_positive(subject)):
         return
 
     def mesh_of(shape: MeshFile) -> Mesh | None:
