@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 _WITH_JOINTS = ("ros2_control", "transmission")
 """Elements of a model, besides plugins, that name its joints."""
+_OF_ROS1 = "libgazebo_ros_control.so"
+"""The plugin that reads <transmission>."""
 _OTHER_SIDE = {
     "left_wheel_names": "right_wheel_names",
     "right_wheel_names": "left_wheel_names",
@@ -85,7 +87,8 @@ def _unknown_joints(
             # A macro has made both joints.
             continue
         said.add((hint.hint, joint.place if joint is not None else None))
-        yield Problem.at(fact.place, "warning", "gazebo-joint", message, hint)
+        severity = "info" if user.is_unread else "warning"
+        yield Problem.at(fact.place, severity, "gazebo-joint", message, hint)
 
 
 class _User(NamedTuple):
@@ -96,12 +99,14 @@ class _User(NamedTuple):
         drives: it must turn the joint.
         side: where the wheel of the joint is.
         taken: the joints of its other wheels.
+        is_unread: nothing in ROS 2 reads it.
     """
 
     name: str
     drives: bool
     side: Side = ""
     taken: frozenset[str] = frozenset()
+    is_unread: bool = False
 
 
 def _named_joints(robot: Robot) -> Iterator[tuple[Fact, _User]]:
@@ -119,15 +124,22 @@ def _named_joints(robot: Robot) -> Iterator[tuple[Fact, _User]]:
                         frozenset(taken),
                     ),
                 )
+    files = [plugin.filename for plugin in plugins(robot.gazebo)]
     for part in robot.gazebo:
         if part.tag in _WITH_JOINTS:
+            unread = part.tag == "transmission" and _OF_ROS1 not in files
             joints = part.find_all("joint")
             for joint in joints:
                 fact = Fact(joint.get("name") or "", joint.place)
                 taken = {other.get("name") or "" for other in joints} - {fact.value}
                 yield (
                     fact,
-                    _User(f"<{part.tag}>", False, taken=frozenset(taken)),
+                    _User(
+                        f"<{part.tag}>",
+                        False,
+                        taken=frozenset(taken),
+                        is_unread=unread,
+                    ),
                 )
 
 

@@ -126,7 +126,8 @@ def control_twice(robot: Robot) -> Iterator[Problem]:
         yield from _in_part(part, robot)
         name = part.get("name") or ""
         other = first.setdefault(name, part)
-        if other is not part and name:
+        # A macro that is called for two robots is for hardware that takes both.
+        if name and other.place != part.place:
             taken = {each.get("name") for each in robot.gazebo}
             free = (f"{name}{count}" for count in range(2, len(robot.gazebo) + 3))
             right = next(each for each in free if each not in taken)
