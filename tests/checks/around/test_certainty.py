@@ -324,7 +324,7 @@ def test_a_bridge_in_the_arguments_of_a_node_is_read_too(copied: Copied) -> None
         "install(DIRECTORY urdf launch rviz config world DESTINATION\n"
         "  share/${PROJECT_NAME})\ninstall(DIRECTORY include/ DESTINATION include)\n"
         "install(DIRECTORY later OPTIONAL DESTINATION share/${PROJECT_NAME})\n"
-        "install(PROGRAMS a.py DESTINATION lib/${PROJECT_NAME})",
+        "install(PROGRAMS launch/display.launch.py DESTINATION lib/${PROJECT_NAME})",
         "install(DIRECTORY urdf launch rviz config world\n  DESTINATION "
         "share/cart_description\n"
         '  PATTERN "*.orig" EXCLUDE)',

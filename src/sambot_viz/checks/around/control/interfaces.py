@@ -56,6 +56,14 @@ def unfit_interfaces(around: Surroundings) -> Iterator[Problem]:
     done: set[tuple[Place | str, str]] = set()
     needs = list(_needs(around)) if joints else []
     single = _of_a_single_robot(needs, joints)
+    # The joints of a controller with its class in its own section may be those of
+    # another robot, or of a controller before it.
+    single |= {
+        need.controller
+        for need in needs
+        if need.joint.value not in joints
+        and declared_controllers(around)[need.controller].name == "type"
+    }
     for need in needs:
         if need.controller in single:
             continue
@@ -105,6 +113,9 @@ def _needs(around: Surroundings) -> Iterator[_NeededInterface]:
         if of_model and posixpath.basename(kind.place.file) not in of_model:
             # Another robot of the package has these.
             continue
+        if not of_model and kind.name == "type" and _has_other_robots(around):
+            # Any of the robots may have a controller with a section of its own.
+            continue
         file = next(f for f in around.yaml_files if f.shown == kind.place.file)
         keys = [key for key in file.nodes if key.rpartition("/")[2] == name]
         given = {n: p for key in keys for n, p in file.of(key).items()}
@@ -116,6 +127,16 @@ def _needs(around: Surroundings) -> Iterator[_NeededInterface]:
                 for said, place in _interfaces(interface, given):
                     for joint in _items(given[joints]):
                         yield _NeededInterface(name, joint, where_, said, place, joints)
+
+
+def _has_other_robots(around: Surroundings) -> bool:
+    """Return whether another model of the package has a <ros2_control>."""
+    own = {file.name for file in around.robot.files}
+    return any(
+        "<ros2_control" in (around.files.text(path) or "")
+        for path in around.files.ending(".xacro", ".urdf", ".sdf")
+        if posixpath.basename(path) not in own
+    )
 
 
 def _interfaces(

@@ -9,6 +9,7 @@ from sambot_viz.checks.around.files.cmake import CMakeCommand, CMakeWord
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
 from sambot_viz.errors import Problem, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _MAKES = frozenset(
     """
@@ -41,6 +42,10 @@ def missing_named_files(around: Surroundings) -> Iterator[Problem]:
             if not _is_plain(name) or (around.files.folder / name).exists():
                 continue
             near, place = _near(name, around), cmake.place(word.line)
+            is_source = name.endswith(_SOURCES)
+            if near is None and (is_source or "." not in posixpath.basename(name)):
+                # What is not kept beside the file comes from another build.
+                continue
             what = "compiled" if command.name in _BUILDS else "installed"
             yield Problem.at(
                 place,
@@ -89,6 +94,8 @@ def unknown_targets(around: Surroundings) -> Iterator[Problem]:
     cmake = around.cmake
     if cmake is None or not cmake.is_package or cmake.fault is not None:
         return
+    if not _MAKES.isdisjoint(cmake.names):
+        return
     made = {
         command.words[0].text
         for command in cmake.commands
@@ -102,7 +109,8 @@ def unknown_targets(around: Surroundings) -> Iterator[Problem]:
     for command in cmake.commands:
         used = command.installed("TARGETS")
         for word in command.words[:1] if command.name in _USES else used:
-            near = nearest(word.text, targets)
+            slips = (name for name in targets if is_one_slip(word.text, name))
+            near = next(slips, None)
             if word.text in made or near is None or "$" in word.text:
                 continue
             place = cmake.place(word.line)
