@@ -232,6 +232,11 @@ from sambot_viz.checks.around.topics.display_words import (
     unknown_settings,
 )
 from sambot_viz.checks.around.topics.displays import unseen_topics
+from sambot_viz.checks.around.topics.ends import (
+    exchanged_relays,
+    topics_of_oneself,
+    unheard_commands,
+)
 from sambot_viz.checks.around.topics.joint_states import (
     no_joint_states,
     unheard_joint_states,
@@ -379,6 +384,9 @@ OF_FILES: tuple[Check, ...] = (
     values_without_source,
     gaps_in_numbers,
     ends_of_other_types,
+    topics_of_oneself,
+    unheard_commands,
+    exchanged_relays,
     unknown_bridge_types,
     different_clocks,
     started_twice,

@@ -30,9 +30,15 @@ def unpublished_odometry(around: Surroundings) -> Iterator[Problem]:
     The finding is at the parameter that stops a filter from publishing it, where only
     that filter could; else at the first node that needs it.
     """
-    if around.namespaced or not around.simulates_only_known or _others_publish(around):
+    if around.namespaced or _others_publish(around):
         return
     started = [one for one in filters(around) if one.started]
+    twice = _maps_twice(around, started[0]) if len(started) == 1 else None
+    if twice is not None:
+        yield twice
+        return
+    if not around.simulates_only_known:
+        return
     for one in started[:1] if len(started) == 1 else ():
         user, found = _user(around, one.odom_frame), _reason(one)
         is_shared = one.odom_frame == one.map_frame
@@ -52,6 +58,35 @@ def unpublished_odometry(around: Surroundings) -> Iterator[Problem]:
         )
     if not started:
         yield from _without_filter(around)
+
+
+def _maps_twice(around: Surroundings, one: StateFilter) -> Problem | None:
+    """Report a filter in the frame of the map, beside a node that localizes there."""
+    world = one.given.get("world_frame")
+    running = [node for node in around.running.started if node.starts == "yes"]
+    sent = {
+        (each.parent, each.child): node
+        for node in running
+        for each in node.transforms
+        if node.package != "robot_localization"
+    }
+    other = sent.get((one.map_frame, one.odom_frame))
+    has_odometry = any(parent == one.odom_frame for parent, _ in sent)
+    if world is None or one.world_frame != one.map_frame or other is None:
+        return None
+    if has_odometry or one.odom_frame == one.map_frame:
+        return None
+    base = one.frame("base_link_frame", "base_link")
+    return Problem.at(
+        world.value_place,
+        "warning",
+        "odometry-unpublished",
+        f"{one.node} publishes the transform from {one.map_frame} to {one.odom_frame}, "
+        f"because world_frame is {world.fact.value}, but {other.name} "
+        f"({where(other.place, world.place)}) does so too, and no node publishes that "
+        f"from {one.odom_frame} to {base}",
+        write(world.place, world.fact.value, one.odom_frame),
+    )
 
 
 def _without_filter(around: Surroundings) -> Iterator[Problem]:

@@ -27,6 +27,9 @@ _OTHER_KEYS = frozenset(
 _LIKENESS = 0.75
 _ARROWS = {"[": _TO_ROS, "]": _TO_GZ, "@": _BOTH}
 _BRIDGED = re.compile(r"(/?[\w/]+)@([\w/]+)([\[\]@])([\w.]+)")
+IMAGE_BRIDGE = "image_bridge"
+"""A bridge that carries only images: its arguments are topics."""
+_NAME = re.compile(r"/?[\w/]+")
 _SCOPED = ("world/", "model/")
 
 
@@ -152,4 +155,30 @@ def entries_in(
                 Fact(gz_type, place),
                 Fact(_ARROWS[arrow], place),
                 arrow,
+            )
+
+
+def entries_of_images(
+    arguments: Iterable[tuple[str | None, Place]],
+    remappings: Iterable[tuple[str, str]],
+) -> Iterator[BridgeEntry]:
+    """Yield the entries in the arguments of a bridge for images.
+
+    Args:
+        arguments: its arguments with their places.
+        remappings: topic → topic.
+    """
+    names = {bare(old): new for old, new in remappings}
+    for argument, place in arguments:
+        if argument is None or argument.startswith("-"):
+            # What comes after options is not a topic.
+            return
+        if _NAME.fullmatch(argument):
+            yield BridgeEntry(
+                Fact(names.get(bare(argument), argument), place),
+                Fact(argument, place),
+                Fact("sensor_msgs/msg/Image", place),
+                Fact("gz.msgs.Image", place),
+                Fact(_TO_ROS, place),
+                "[",
             )

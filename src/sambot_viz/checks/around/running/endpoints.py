@@ -11,10 +11,12 @@ from typing import NamedTuple
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.around.running.bridge_entries import (
+    IMAGE_BRIDGE,
     BridgeEntry,
     bare,
     entries_in,
     entries_of_file,
+    entries_of_images,
 )
 from sambot_viz.checks.around.running.displays import displays_of
 from sambot_viz.checks.around.running.known import KnownNode, NodeRow, known_nodes
@@ -178,7 +180,7 @@ def _said(node: RunningNode, words: str) -> Iterator[_Said]:
             if match is not None and parameter.value:
                 yield _Said(before + parameter.value + after, parameter, match[1])
         return
-    given = node.parameter(name)
+    given = _argument(node, int(name)) if name.isdigit() else node.parameter(name)
     if given is not None:
         if given.value:
             yield _Said(before + given.value + after, given, "")
@@ -188,18 +190,37 @@ def _said(node: RunningNode, words: str) -> Iterator[_Said]:
         )
 
 
+def _argument(node: RunningNode, number: int) -> GivenParameter | None:
+    """Return an argument of a program as a parameter, counted from 1."""
+    every = list(node.placed_arguments)
+    words = [word for word, _ in every]
+    end = words.index("--ros-args") if "--ros-args" in words else len(words)
+    text, place = every[number - 1] if number <= end else (None, node.place)
+    return None if text is None else GivenParameter(str(number), (text,), place)
+
+
 def _transforms(node: RunningNode, known: KnownNode) -> Iterator[PublishedTransform]:
     for row in known.rows:
         if row.verb == "transform" and not _is_off(node, row):
             for parent, child in zip(
-                *(_said(node, w) for w in row.words), strict=False
+                *(_said(node, w) for w in row.words[:2]), strict=False
             ):
                 said = child.parameter or parent.parameter
                 place = said.place if said else node.place
                 frames = [each.text.strip().lstrip("/") for each in (parent, child)]
-                yield PublishedTransform(frames[0], frames[1], place)
+                yield _in_the_map(
+                    node, row, PublishedTransform(frames[0], frames[1], place)
+                )
     if known.name == "static_transform_publisher":
         yield from _static(node)
+
+
+def _in_the_map(
+    node: RunningNode, row: NodeRow, one: PublishedTransform
+) -> PublishedTransform:
+    """Return the transform of a filter, which from the map leads to odometry."""
+    ends = [next(_said(node, word)).text.strip().lstrip("/") for word in row.words[2:]]
+    return replace(one, child=ends[1]) if ends[:1] == [one.parent] else one
 
 
 def _needs(node: RunningNode, known: KnownNode) -> Iterator[NeededFrame]:
@@ -231,6 +252,8 @@ def entries_of(
         node: the bridge.
         find: returns a package that is here by its name.
     """
+    if node.executable == IMAGE_BRIDGE:
+        yield from entries_of_images(node.placed_arguments, node.remappings)
     yield from entries_in(node.placed_arguments, node.remappings)
     given = node.parameter("config_file")
     path = given.value if given is not None else None

@@ -149,7 +149,7 @@ def topics_of_other_types(around: Surroundings) -> Iterator[Problem]:
         # Another rule compares a costmap's sensors with their data_type.
         if not sources or end.parameter.endswith(".topic"):
             continue
-        if any(p.kind == kind for p in sources):
+        if any(p.kind in (kind, "") for p in sources):
             continue
         own = {u.name for u in used_topics(around) if u.reader == read.reader}
         fitting = [

@@ -16,6 +16,7 @@ from sambot_viz.checks.around.parameters.navigation import filters
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.bridge_entries import (
     DIRECTIONS,
+    IMAGE_BRIDGE,
     BridgeEntry,
     bare,
 )
@@ -25,9 +26,7 @@ from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.xml.element import Element
 
 _TO_ROS, _TO_GZ, _BOTH = DIRECTIONS
-_OF_IMAGES = "image_bridge"
-"""A bridge that carries only images, and finds their types itself."""
-_BRIDGES = ("parameter_bridge", _OF_IMAGES)
+_BRIDGES = ("parameter_bridge", IMAGE_BRIDGE)
 
 
 def bridge_directions(around: Surroundings) -> Iterator[Problem]:
@@ -58,20 +57,10 @@ def bridge_topics(around: Surroundings) -> Iterator[Problem]:
     nodes = [n for n in around.running.started if n.executable in _BRIDGES]
     if any(None in node.arguments for node in nodes):
         return
-    pictures = {
-        bare(text or "")
-        for node in nodes
-        if node.executable == _OF_IMAGES
-        for text in node.arguments
-    }
     # The finding at the sensor says which of two sensors with one topic is right.
     doubled = tuple(doubled_topics(around))
     topics = model_topics(around)
-    free = [
-        topic
-        for topic in topics
-        if topic.name not in pictures and not topic.name.startswith(doubled)
-    ]
+    free = [topic for topic in topics if not topic.name.startswith(doubled)]
     own = _own_names(around, topics)
     for publishes, ways in ((True, (_TO_ROS, _BOTH)), (False, (_TO_GZ, _BOTH))):
         alike = [topic for topic in free if topic.end.publishes is publishes]
@@ -144,6 +133,7 @@ def _misnamed(
         near = nearest(name, left, 0.0 if alone else 0.6)
         if near is not None:
             topic, place = left[near], entry.gz.place
+            is_bare = place.file.endswith(".py") and entry.gz.value[:1] != "/"
             yield Problem.at(
                 place,
                 "warning",
@@ -154,7 +144,7 @@ def _misnamed(
                 write(
                     place,
                     entry.gz.value,
-                    near if place.file.endswith(".py") else f"/{near}",
+                    near if is_bare else f"/{near}",
                 ),
             )
 

@@ -102,6 +102,9 @@ def _wrong(
         free = [p for p in fitting if p.topic.value not in shown]
         yield _other_type(each, sources[0], free)
         return
+    if sources:
+        # A relay publishes a type that only its source decides on.
+        return
     known = {bare(p.topic.value): p for p in fitting}
     near = _misspelt(bare(whole), known)
     is_only = near is None and node.starts == "yes"

@@ -10,9 +10,10 @@ from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.running.system import Endpoint, RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.topics.ends import remapped_at
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import write
-from sambot_viz.errors import Fix, Place, Problem
+from sambot_viz.errors import Fix, Problem
 
 _SENDER = "joint-state-publisher-system"
 _TRUE = frozenset({"true", "1"})
@@ -156,7 +157,7 @@ def _unheard(
         odd, other = (reader, what) if is_renamed else (sender, _READER)
         if not _renames(odd):
             return
-        place = _remapped_at(around, odd)
+        place = remapped_at(around, odd)
         fix = Fix(f"delete the remapping, or write one for {other} too")
     at = "" if place == topic.place else f" ({where(topic.place, place)})"
     yield Problem.at(
@@ -172,13 +173,3 @@ def _unheard(
 
 def _renames(node: RunningNode) -> bool:
     return any(bare(old) == "joint_states" for old, _ in node.remappings)
-
-
-def _remapped_at(around: Surroundings, node: RunningNode) -> Place:
-    """Return the place of the remappings of a node, or its own."""
-    for launch in around.launches:
-        for call in launch.called():
-            given = call.given("remappings")
-            if call.place == node.place and given is not None:
-                return launch.place(given)
-    return node.place

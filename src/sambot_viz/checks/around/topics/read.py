@@ -173,19 +173,19 @@ def used_topics(around: Surroundings) -> list[ReadTopic]:
         end.message
         for node in around.running.started
         for end in node.endpoints
-        if end.publishes and not end.in_gazebo and not _is_placed(around, node)
+        if end.publishes and not end.in_gazebo and not is_placed(around, node)
     }
     named = {
         (node.path, end.parameter, end.place): ReadTopic(node, end, bare(end.topic))
         for node in around.running.started
         for end in node.endpoints
-        if end.parameter and not end.publishes and not end.in_gazebo
-        if _is_placed(around, node) and not is_copied(around, end.place)
+        if end.parameter and not end.publishes and not end.in_gazebo and end.kind
+        if is_placed(around, node) and not is_copied(around, end.place)
     }
     return [read for read in named.values() if read.end.message not in lost]
 
 
-def _is_placed(around: Surroundings, node: RunningNode) -> bool:
+def is_placed(around: Surroundings, node: RunningNode) -> bool:
     """Return whether the namespace of a node is known."""
     return not around.namespaced or (node.starts == "yes" and node.namespace != "")
 
@@ -198,7 +198,7 @@ def published_topics(around: Surroundings) -> Iterator[Published]:
         is_simulated = node.is_bridge or node.executable in plugins
         if is_simulated:
             what = "the bridge" if node.is_bridge else f"the plugin {node.executable}"
-        for end in node.endpoints if _is_placed(around, node) else ():
+        for end in node.endpoints if is_placed(around, node) else ():
             if end.publishes and not end.in_gazebo:
                 topic = Fact(end.topic, end.place)
                 yield Published(topic, end.message, what, is_simulated)
