@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -97,3 +98,19 @@ def moved(place: Place, blanks: int, items: int = 1) -> Fix:
             both = (at, at, " " * blanks) if blanks > 0 else (at, end, "")
             fixes.append(write_between(*both, hint))
     return together(hint, *fixes)
+
+
+def key_place(place: Place, name: str) -> Place:
+    """Return the place of a key of YAML; that of its mapping where it is not found."""
+    source, column = source_of(place.file), (place.column or 1) - 1
+    lines = source.text.split("\n") if source is not None else []
+    for number, line in enumerate(lines[place.line - 1 :], place.line):
+        text = line.strip()
+        if text and text[0] != "#" and len(line) - len(line.lstrip()) < column:
+            is_first = number == place.line
+            if not is_first:
+                break
+        found = re.match(rf"\s*(?:- +)*({re.escape(name)})\s*:", line)
+        if found is not None and found.start(1) == column:
+            return Place(place.file, number, column + 1)
+    return place

@@ -54,12 +54,10 @@ from sambot_viz.checks.around.joint_names import joints_of_controllers
 from sambot_viz.checks.around.launch_files.arguments import undeclared_arguments
 from sambot_viz.checks.around.launch_files.called_modules import called_modules
 from sambot_viz.checks.around.launch_files.calls import (
-    arguments_that_are_no_texts,
     calls_without_argument,
     files_without_folder,
     paths_from_the_root,
     sets_for_dicts,
-    substitutions_for_texts,
 )
 from sambot_viz.checks.around.launch_files.choices import misspelt_truths, other_words
 from sambot_viz.checks.around.launch_files.code import (
@@ -68,12 +66,20 @@ from sambot_viz.checks.around.launch_files.code import (
     missing_entries,
     unknown_names,
 )
+from sambot_viz.checks.around.launch_files.conditions import (
+    bare_conditions,
+    joined_conditions,
+    plain_conditions,
+)
 from sambot_viz.checks.around.launch_files.containers import unknown_containers
 from sambot_viz.checks.around.launch_files.events import (
     handlers_that_wait,
     periods,
     plain_handlers,
     texts_for_actions,
+)
+from sambot_viz.checks.around.launch_files.expressions import (
+    uncomputable_expressions,
 )
 from sambot_viz.checks.around.launch_files.imports import wrong_imports
 from sambot_viz.checks.around.launch_files.includes import (
@@ -90,7 +96,6 @@ from sambot_viz.checks.around.launch_files.kinds import (
     arguments_without_list,
     lists_of_actions,
     misspelt_time,
-    plain_conditions,
     plain_substitutions,
     remappings_without_pairs,
     reversed_remappings,
@@ -114,6 +119,13 @@ from sambot_viz.checks.around.launch_files.paths import (
     misspelt_endings,
 )
 from sambot_viz.checks.around.launch_files.programs import unknown_programs
+from sambot_viz.checks.around.launch_files.substitutions import (
+    substitutions_for_texts,
+    substitutions_in_python,
+)
+from sambot_viz.checks.around.launch_files.text_values import (
+    arguments_that_are_no_texts,
+)
 from sambot_viz.checks.around.launch_files.uses import (
     bridges_as_parameters,
     spawned_topics,
@@ -338,12 +350,16 @@ OF_FILES: tuple[Check, ...] = (
     calls_without_argument,
     sets_for_dicts,
     substitutions_for_texts,
+    substitutions_in_python,
     paths_from_the_root,
     files_without_folder,
     arguments_without_list,
     remappings_without_pairs,
     reversed_remappings,
+    bare_conditions,
+    joined_conditions,
     plain_conditions,
+    uncomputable_expressions,
     lists_of_actions,
     plain_substitutions,
     joined_texts,

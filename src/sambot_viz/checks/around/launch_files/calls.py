@@ -11,7 +11,6 @@ from sambot_viz.checks.around.launching.launch_file import NODES, LaunchFile
 from sambot_viz.checks.around.launching.python_parts import Call
 from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.launch_files import call_name
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import together, write_between
 from sambot_viz.errors import Fix, Place, Problem
@@ -36,94 +35,7 @@ _NEEDED = {
 """Call → its required argument."""
 _DICTS = ("parameters", "launch_arguments")
 """Arguments that have dicts, by themselves or in a list."""
-_OF_TEXTS = frozenset(
-    {
-        "open",
-        "os.listdir",
-        "os.path.abspath",
-        "os.path.basename",
-        "os.path.dirname",
-        "os.path.exists",
-        "os.path.isfile",
-        "os.path.join",
-        "os.path.splitext",
-        "xacro.process",
-        "xacro.process_file",
-    }
-)
-"""Functions of Python whose arguments are texts."""
-_SUBSTITUTIONS = frozenset(
-    {
-        "Command",
-        "EnvironmentVariable",
-        "FindExecutable",
-        "FindPackagePrefix",
-        "FindPackageShare",
-        "LaunchConfiguration",
-        "PathJoinSubstitution",
-        "PythonExpression",
-        "TextSubstitution",
-        "ThisLaunchFileDir",
-    }
-)
 _ENDINGS = (".yaml", ".yml", ".sdf", ".world", ".rviz")
-
-
-def arguments_that_are_no_texts(around: Surroundings) -> Iterator[Problem]:
-    """Report defaults and launch arguments that are not texts, and a dict of them."""
-    for launch in around.launches:
-        for call in launch.called("DeclareLaunchArgument"):
-            default = call.given("default_value", 1)
-            if default is not None:
-                yield from _no_text(default, "default_value", launch)
-        for call in launch.called("IncludeLaunchDescription"):
-            yield from _no_pairs(call.given("launch_arguments"), launch)
-
-
-def _no_text(value: ast.expr, name: str, launch: LaunchFile) -> Iterator[Problem]:
-    inner = value.operand if isinstance(value, ast.UnaryOp) else value
-    said = inner.value if isinstance(inner, ast.Constant) else ""
-    if not isinstance(said, str):
-        written = ast.unparse(value)
-        yield _stops(
-            value,
-            launch,
-            f"{name} is {written}, and launch arguments are texts",
-            f"'{written}'",
-        )
-
-
-def _no_pairs(given: ast.expr | None, launch: LaunchFile) -> Iterator[Problem]:
-    if isinstance(given, ast.Dict):
-        end = Place(
-            launch.shown, given.end_lineno or 1, (given.end_col_offset or 0) + 1
-        )
-        yield Problem.at(
-            end,
-            "error",
-            "launch-code",
-            "launch_arguments takes pairs of a name and a value, and a dict gives its "
-            "names alone: ros2 launch stops with it",
-            write_between(end, end, ".items()", "write .items() after the }"),
-        )
-        return
-    is_items = isinstance(given, ast.Call) and call_name(given.func) == "items"
-    table = given.func if is_items and isinstance(given, ast.Call) else None
-    inner = table.value if isinstance(table, ast.Attribute) else None
-    if isinstance(inner, ast.Dict):
-        for key, value in zip(inner.keys, inner.values, strict=True):
-            name = key.value if isinstance(key, ast.Constant) else "a value"
-            yield from _no_text(value, str(name), launch)
-
-
-def _stops(value: ast.expr, launch: LaunchFile, cause: str, right: str) -> Problem:
-    return Problem.at(
-        launch.place(value),
-        "error",
-        "launch-code",
-        f"{cause}: ros2 launch stops with it",
-        rewritten(value, launch.shown, right),
-    )
 
 
 def calls_without_argument(around: Surroundings) -> Iterator[Problem]:
@@ -185,44 +97,6 @@ def _set_for_dict(
         f"a comma makes this a set of values, not a dict: {names[0]} gets no value, "
         "and ros2 launch stops or takes the set for the path of a file",
         together(hint, *fixes) if len(fixes) == len(keys) else Fix(hint),
-    )
-
-
-def substitutions_for_texts(around: Surroundings) -> Iterator[Problem]:
-    """Report substitutions of launch in functions of Python that take texts."""
-    for launch in around.launches:
-        found: dict[int, tuple[ast.Call, str]] = {}
-        for call in launch.calls:
-            function = ast.unparse(call.node.func)
-            for node in call.node.args if function in _OF_TEXTS else ():
-                inner = launch.origin(node)
-                name = call_name(inner.func) if isinstance(inner, ast.Call) else ""
-                if isinstance(inner, ast.Call) and name in _SUBSTITUTIONS:
-                    found.setdefault(id(inner), (inner, function))
-        for inner, function in found.values():
-            yield _no_plain_text(inner, function, launch)
-
-
-def _no_plain_text(node: ast.Call, function: str, launch: LaunchFile) -> Problem:
-    name = call_name(node.func)
-    fix = Fix(
-        "write PathJoinSubstitution([…]) with the same parts for os.path.join"
-        if function == "os.path.join"
-        else "read the text in an OpaqueFunction with .perform(context)"
-    )
-    given = [*node.args, *(k.value for k in node.keywords)]
-    package = launch.values.text(given[0]) if given else None
-    if name == "FindPackageShare" and package is not None:
-        end = Place(launch.shown, node.end_lineno or 1, (node.end_col_offset or 0) + 1)
-        added = f".find('{package}')"
-        fix = write_between(end, end, added, f"write {added} after it")
-    return Problem.at(
-        launch.place(node),
-        "error",
-        "launch-code",
-        f"{name} is a substitution, whose text launch finds later, and {function} "
-        "takes texts: ros2 launch stops with it",
-        fix,
     )
 
 

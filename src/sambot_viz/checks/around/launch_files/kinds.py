@@ -38,7 +38,6 @@ _WORDS = frozenset({"arguments", "cmd"})
 _PROGRAMS = ("ExecuteProcess", "ExecuteLocal")
 _SHORT = 3
 """Length up to which a name may be one letter from many others."""
-_TRUTH = frozenset({"true", "false", "1", "0"})
 _SUBSTITUTION = re.compile(r"\$\(\s*(find|find-pkg-share|var|arg)\s+([\w.-]+)\s*\)")
 _IN_PYTHON = {
     "find": "FindPackageShare",
@@ -173,32 +172,6 @@ def _misspelt(
             f"{node.name} uses no name {old}, but {right}: this has no effect",
             write(place, old, right),
         )
-
-
-def plain_conditions(around: Surroundings) -> Iterator[Problem]:
-    """Report conditions with the name of a launch argument in place of its value."""
-    for launch in around.launches:
-        declared = {launch.text(c, "name", 0) for c in launch.called(*_DECLARES)}
-        names = [name for name in declared if name]
-        for call in launch.called("IfCondition", "UnlessCondition"):
-            given = call.given("predicate_expression", 0)
-            text = given.value if isinstance(given, ast.Constant) else None
-            if given is None or not isinstance(text, str):
-                continue
-            if text.strip().lower() in _TRUTH or "$(" in text:
-                continue
-            name = text if text in names else nearest(text, names, 0.8) or text
-            yield Problem.at(
-                launch.place(given),
-                "error",
-                _CODE,
-                f"{call.name}('{text}') takes the text {text} itself, which is neither "
-                f"true nor false: {_STOPS}",
-                rewritten(given, launch.shown, f"LaunchConfiguration('{name}')"),
-            )
-
-
-_DECLARES = ("DeclareLaunchArgument",)
 
 
 def lists_of_actions(around: Surroundings) -> Iterator[Problem]:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
+from sambot_viz.checks.around.place import key_place
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.words import WordKind, WrittenWord, misspelt
 from sambot_viz.checks.around.workspace import Package
@@ -14,7 +15,6 @@ from sambot_viz.checks.rule import listed
 from sambot_viz.edits import (
     rename_attribute,
     rename_element,
-    source_of,
     write,
     write_between,
 )
@@ -145,7 +145,7 @@ def _attributes(element: Element, is_xml: bool) -> Iterator[WrittenWord]:
     if element.parent is not None and element.parent.tag == "include":
         owner = "keep"
     for name, value in given.items():
-        there = place if is_xml else _key_place(place, name)
+        there = place if is_xml else key_place(place, name)
 
         def renamed(
             right: str, name: str = name, value: str = value, there: Place = there
@@ -156,22 +156,6 @@ def _attributes(element: Element, is_xml: bool) -> Iterator[WrittenWord]:
             return write(there, name, right, hint=hint)
 
         yield WrittenWord(owner, name, given, there, renamed)
-
-
-def _key_place(place: Place, name: str) -> Place:
-    """Return the place of a key of YAML; that of its mapping where it is not found."""
-    source, column = source_of(place.file), (place.column or 1) - 1
-    lines = source.text.split("\n") if source is not None else []
-    for number, line in enumerate(lines[place.line - 1 :], place.line):
-        text = line.strip()
-        if text and text[0] != "#" and len(line) - len(line.lstrip()) < column:
-            is_first = number == place.line
-            if not is_first:
-                break
-        found = re.match(rf"\s*(?:- +)*({re.escape(name)})\s*:", line)
-        if found is not None and found.start(1) == column:
-            return Place(place.file, number, column + 1)
-    return place
 
 
 def _substitutions(element: Element) -> Iterator[WrittenWord]:

@@ -40,20 +40,37 @@ _NOTHING = frozenset(
 def text_of(written: str) -> Expression:
     """Read a text with substitutions such as $(var name)."""
     parts: list[Expression] = []
+    for part, is_text in written_parts(written):
+        found = None if is_text else _SUBSTITUTION.match(part)
+        if found is not None:
+            parts.append(_substituted(found[1], part[found.end() : -1].strip()))
+        elif _SUBSTITUTION.search(part) is not None:
+            return None
+        else:
+            parts.append(part)
+    if not parts:
+        return written
+    return parts[0] if len(parts) == 1 else Joined(tuple(parts))
+
+
+def written_parts(written: str) -> list[tuple[str, bool]]:
+    """Return the texts and the substitutions of a text; True for a text.
+
+    A substitution without its last bracket stays in a text.
+    """
+    parts: list[tuple[str, bool]] = []
     at = 0
     while (found := _SUBSTITUTION.search(written, at)) is not None:
         end = _end(written, found.start() + 2)
         if end is None:
-            return None
+            break
         if found.start() > at:
-            parts.append(written[at : found.start()])
-        parts.append(_substituted(found[1], written[found.end() : end].strip()))
+            parts.append((written[at : found.start()], True))
+        parts.append((written[found.start() : end + 1], False))
         at = end + 1
-    if not parts:
-        return written
     if at < len(written):
-        parts.append(written[at:])
-    return parts[0] if len(parts) == 1 else Joined(tuple(parts))
+        parts.append((written[at:], True))
+    return parts
 
 
 def _end(written: str, start: int) -> int | None:

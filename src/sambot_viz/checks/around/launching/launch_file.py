@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -108,26 +109,38 @@ class LaunchFile:
     def _set(self) -> dict[str, ast.expr | None]:
         """Variable → its expression, None for one that has several."""
         found: dict[str, ast.expr | None] = {}
+        set_at: list[str] = []
         for node in ast.walk(self.tree):
-            if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
-                name = node.targets[0].id
-                found[name] = None if name in found else node.value
-        inputs = {node.arg for node in ast.walk(self.tree) if isinstance(node, ast.arg)}
-        return found | dict.fromkeys(inputs & found.keys())
+            match node:
+                case ast.Assign(targets=[ast.Name(id=name), *_], value=value):
+                    found[name] = value
+                case ast.AnnAssign(target=ast.Name(id=name), value=value):
+                    found[name] = value
+                case ast.Name(id=name, ctx=ast.Store()) | ast.arg(arg=name):
+                    set_at.append(name)
+                case _:
+                    pass
+        several = (name for name, times in Counter(set_at).items() if times > 1)
+        return found | dict.fromkeys(found.keys() & several)
+
+    def assigned(self, node: ast.expr) -> ast.expr:
+        """Return the expression inside variables."""
+        for _ in range(limits.YAML_DEPTH.value):
+            inner = self._set.get(node.id) if isinstance(node, ast.Name) else None
+            if inner is None:
+                return node
+            node = inner
+        return node
 
     def origin(self, node: ast.expr) -> ast.expr:
         """Return the expression inside variables and a ParameterValue."""
         for _ in range(limits.YAML_DEPTH.value):
+            node = self.assigned(node)
             match node:
-                case ast.Name(id=name):
-                    inner = self._set.get(name)
                 case ast.Call(args=[inner, *_]) if call_name(node.func) in _WRAPPERS:
-                    pass
+                    node = inner
                 case _:
                     return node
-            if inner is None:
-                return node
-            node = inner
         return node
 
     def named(self, text: str) -> str | None:

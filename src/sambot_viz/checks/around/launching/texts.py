@@ -98,7 +98,7 @@ class LaunchTexts:
                 return None if name is None else SHARE + name
             case Operation(name="eval", operands=(inner,)):
                 written = self.text(inner)
-                return None if written is None else _evaluated(written)
+                return None if written is None else evaluated(written)
             case Operation(name="if-else", operands=(test, *others)):
                 truth = self.truth(test)
                 chosen = others[0 if truth else 1 :][:1] if truth is not None else []
@@ -164,7 +164,7 @@ class LaunchTexts:
                 return None
 
 
-def _evaluated(written: str) -> str | None:
+def evaluated(written: str) -> str | None:
     """Return the value of an expression of Python; None for one not understood."""
     tree = parse_python(written.strip())
     match tree:
