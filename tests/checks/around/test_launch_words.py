@@ -140,6 +140,12 @@ CASES = [
     (PYTHON, ".items()", ".item()", "a dict has no item, but items"),
     (XML, "share robot)", "share robt)", "asks for the package robt"),
     (XML, "robot.rviz", "robots.rviz", "uses rviz/robots.rviz, which the package"),
+    (
+        YAML,
+        "exec: rviz2,",
+        "exec: rviz2, remappings: [{from: a, to: b}],",
+        "but <remap>",
+    ),
     (YAML, "launch:", "launhc:", "key of a launch file is launch, and this is launhc"),
     (YAML, "default: a", "default: aa", "default is aa, and takes only a and b"),
     (YAML, "pkg: rviz2", "pkg: my_rviz", "rviz2 is in rviz2, and a package my_rviz"),

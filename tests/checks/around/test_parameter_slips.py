@@ -120,6 +120,12 @@ def found(package: Path, file: str, right: str, wrong: str) -> Problem:
         (MAP, "trinary", "triary", "a map has no mode triary"),
         (MAP, "image: map", "image: maps", "has the image maps.pgm, which is not"),
         (MAP, "negate:", "neagte:", "this map has no negate"),
+        (
+            MAP,
+            "0.65\nfree_thresh: 0.25",
+            "0.25\nfree_thresh: 0.65",
+            "free_thresh is 0.65, and occupied_thresh (line 6) is less",
+        ),
     ],
 )
 def test_a_slip_is_undone_by_its_edit(
@@ -165,3 +171,31 @@ def test_a_controller_needs_the_wheels_of_both_sides(package: Path, given: str) 
     (problem,) = problems(package)
     assert (problem.severity, problem.line) == ("warning", 7)
     assert "_wheel_names, which its class needs" in problem.message
+
+
+def test_the_image_of_a_map_is_no_map(package: Path) -> None:
+    text = """\
+from launch import LaunchDescription
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+from launch.substitutions import PathJoinSubstitution
+
+
+def generate_launch_description():
+    map_file = PathJoinSubstitution([FindPackageShare('robot'), 'maps', 'map.pgm'])
+    return LaunchDescription([
+        Node(
+            package='nav2_map_server',
+            executable='map_server',
+            parameters=[{'yaml_filename': map_file}],
+        ),
+    ])
+"""
+    path = package / "launch/map.launch.py"
+    path.parent.mkdir()
+    path.write_text(text)
+    (problem,) = [p for p in problems(package) if p.severity != "info"]
+    assert problem.code == "parameter-value"
+    path.write_bytes(edited_files(problem.edits)[str(path)])
+    assert path.read_text() == text.replace("map.pgm", "map.yaml")
+    assert [p for p in problems(package) if p.severity != "info"] == []

@@ -195,6 +195,10 @@ from sambot_viz.checks.around.parameters.levels import (
     lines_at_other_levels,
     values_beside_parameters,
 )
+from sambot_viz.checks.around.parameters.maps import (
+    images_for_maps,
+    maps_that_do_not_load,
+)
 from sambot_viz.checks.around.parameters.names import (
     unknown_parameters,
     unknown_plugins,
@@ -211,7 +215,6 @@ from sambot_viz.checks.around.parameters.node_parameters import (
 from sambot_viz.checks.around.parameters.sections import unknown_sections
 from sambot_viz.checks.around.parameters.slips import (
     incomplete_nodes,
-    maps_that_do_not_load,
     parameters_of_nobody,
     texts_for_values,
 )
@@ -315,6 +318,7 @@ OF_FILES: tuple[Check, ...] = (
     lines_at_other_levels,
     texts_for_values,
     incomplete_nodes,
+    images_for_maps,
     maps_that_do_not_load,
     wrong_values,
     unreadable_parameters,

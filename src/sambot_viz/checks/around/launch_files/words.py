@@ -172,6 +172,8 @@ def _substitutions(element: Element) -> Iterator[WrittenWord]:
 def _children(element: Element, is_xml: bool) -> Iterator[WrittenWord]:
     for child in element.children:
         place, tag = child.place, child.tag
+        if not is_xml:
+            place = key_place(element.place, tag)
         fix: Callable[[str], Fix] = partial(write, place, tag)
         if is_xml:
             fix = partial(_element, place, tag)

@@ -11,7 +11,6 @@ import yaml
 
 from sambot_viz.checks.around.files.parameters import (
     Parameter,
-    YamlFile,
     each_mapping,
     pairs,
     place_of,
@@ -20,9 +19,8 @@ from sambot_viz.checks.around.parameters.known import ParameterBlock
 from sambot_viz.checks.around.parameters.node_parts import NodePart, parts_by_node
 from sambot_viz.checks.around.place import moved, where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.workspace import Package
 from sambot_viz.edits import write
-from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _KEY = "ros__parameters"
@@ -33,9 +31,6 @@ WORDS = frozenset({"rue", "tree", "tue"})
 _ALL = 10_000
 """More entries than a level has."""
 _LONG = 4
-_MAP = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
-_MODES = ("trinary", "scale", "raw")
-_IMAGES = (".pgm", ".png", ".bmp", ".jpg")
 
 
 def parameters_of_nobody(around: Surroundings) -> Iterator[Problem]:
@@ -107,81 +102,6 @@ def texts_for_values(around: Surroundings) -> Iterator[Problem]:
                 "meant: a node that needs that stops with an error",
                 write(parameter.value_place, text, near[0]),
             )
-
-
-def maps_that_do_not_load(around: Surroundings) -> Iterator[Problem]:
-    """Report maps without an existing image, or without a required value."""
-    for package in around.packages:
-        for path in package.ending(".yaml", ".yml"):
-            file = _map_file(package, path)
-            if file is None:
-                continue
-            values = {key.value: (key, value) for key, value in pairs(file.root)}
-            for name in _MAP:
-                if name not in values:
-                    yield _no_value(file, name, list(values))
-            yield from _other_mode(file, values.get("mode"))
-            _, image = values.get("image", (None, None))
-            said = image.value if isinstance(image, yaml.ScalarNode) else ""
-            below = path.rpartition("/")[0]
-            there = f"{below}/{said}".lstrip("/")
-            beside = [
-                p for p in package.ending(*_IMAGES) if p.rpartition("/")[0] == below
-            ]
-            # Without any image, all of them may come from another folder.
-            if image is None or said[:1] == "/" or not beside:
-                continue
-            place = place_of(image, file.shown)
-            right = beside[0].rpartition("/")[2] if len(beside) == 1 else ""
-            if not (package.folder / there).exists():
-                yield Problem.at(
-                    place,
-                    "error",
-                    "parameter-value",
-                    f"this map has the image {said}, which is not beside it: "
-                    "map_server stops with an error",
-                    write(place, said, right) if right else "add that image",
-                )
-
-
-def _other_mode(
-    file: YamlFile, mode: tuple[yaml.Node, yaml.Node] | None
-) -> Iterator[Problem]:
-    said = mode[1].value if mode and isinstance(mode[1], yaml.ScalarNode) else ""
-    if mode is not None and said and said.lower() not in _MODES:
-        place = place_of(mode[1], file.shown)
-        near = nearest(said.lower(), _MODES)
-        yield Problem.at(
-            place,
-            "error",
-            "parameter-value",
-            f"a map has no mode {said}, but {', '.join(_MODES)}: map_server stops with "
-            "an error",
-            write(place, said, near) if near else "write one of these",
-        )
-
-
-def _map_file(package: Package, path: str) -> YamlFile | None:
-    """Return a file that has most of what a map has."""
-    text = package.text(path) or ""
-    if sum(name in text for name in _MAP) < _LONG:
-        return None
-    file = package.yaml(path)
-    keys = [key.value for key, _ in pairs(file.root)] if file is not None else []
-    return file if len({*keys}.intersection(_MAP)) >= _LONG else None
-
-
-def _no_value(file: YamlFile, name: str, given: list[str]) -> Problem:
-    near = next((g for g in given if g not in _MAP and is_one_slip(g, name)), "")
-    keys = {key.value: key for key, _ in pairs(file.root)}
-    place = place_of(keys[near], file.shown) if near else Place(file.shown, 1)
-    return Problem.at(
-        place,
-        "error",
-        "parameter-value",
-        f"this map has no {name}: map_server stops with an error",
-        write(place, near, name) if near else f"add {name}",
-    )
 
 
 def incomplete_nodes(around: Surroundings) -> Iterator[Problem]:
