@@ -202,3 +202,35 @@ def test_what_was_checked_late_does_not_replace_what_is_newer(
         newer.set()
         thread.join(10)
         assert codes(viz) == ["new"]
+
+
+@pytest.mark.parametrize(
+    ("leader", "code"),
+    [
+        ("jj", "mimic-joint-unknown"),
+        ("k", "mimic-ring"),
+        ("f", "mimic-joint-immovable"),
+    ],
+)
+def test_a_wrong_mimic_is_listed_once(tmp_path: Path, leader: str, code: str) -> None:
+    path = tmp_path / "r.urdf"
+    joints = "".join(
+        f'''<link name="{name}"/>
+  <joint name="{name}" type="{kind}">
+    <parent link="base_link"/><child link="{name}"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>{mimic}
+  </joint>'''
+        for name, kind, mimic in (
+            ("f", "fixed", ""),
+            ("k", "revolute", f'<mimic joint="{leader}"/>'),
+            ("m", "revolute", '<mimic joint="k"/>'),
+        )
+    )
+    path.write_text(f'<robot name="r"><link name="base_link"/>{joints}</robot>')
+    viz = Visualizer(load_robot(path), port=0)
+    try:
+        assert codes(viz).count(code) == 1
+        session_of(viz).checks.run()
+        assert codes(viz).count(code) == 1
+    finally:
+        viz.stop()

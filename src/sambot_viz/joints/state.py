@@ -85,7 +85,10 @@ class JointState:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """The mimic joints that cannot follow, or disagree with what was given."""
+        """The mimic joints that cannot follow, or disagree with what was given.
+
+        What the reader of the model has found is left out: one cause, one problem.
+        """
         return self._problems
 
     # Their positions
@@ -250,7 +253,9 @@ class JointState:
     def _take(self, robot: Robot) -> None:
         self.kinematics = robot.kinematics
         self._joints = {n: j for n, j in robot.joints.items() if j.movable}
-        self._followers, self._problems = find_followers(robot.joints)
+        self._followers, found = find_followers(robot.joints)
+        known = {problem.code for problem in robot.problems}
+        self._problems = tuple(one for one in found if one.code not in known)
         self._free = {n: j for n, j in self._joints.items() if j.mimic is None}
         self._skipped = {
             n: f"{j.type}: has no position in ROS"
