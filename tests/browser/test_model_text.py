@@ -172,7 +172,7 @@ def test_a_number_is_moved_by_keys_and_written_so_that_the_editor_undoes_it(
         assert 'value="0.20"' in page.evaluate(text)
         # The robot is there before the page is told of it.
         user.reads("1 moved, not in the text")
-        user.click("button", "Write into the file")
+        user.click("button", "Write into the text")
         viewer.wait_for(f"{text}.includes('value=\"0.202\"')")
         user.reads("Not saved")
         page.evaluate("document.querySelector('.model .cm-content').focus()")

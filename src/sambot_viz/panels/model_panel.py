@@ -240,7 +240,7 @@ class ModelPanel(Panel):
         self._open, text = found.file, self._text.buffer(found.file).text
         self._want({"extent": [to_units(text, at) for at in found.named.extent]})
 
-    @command("model/write", name="Write into the file")
+    @command("model/write", name="Write into the text")
     def _write(self) -> None:
         """Let the editor of the page write the changed numbers.
 

@@ -59,7 +59,7 @@ function Buttons({ write }) {
   const said = moved && `${moved} moved, not in the text`;
   return html`<div class="buttons">
     <button class="needs-control" disabled=${!writable || !write} onClick=${write}
-      title="Put the moved numbers into their lines; Undo in the editor takes them back">Write into the file</button>
+      title="Put the moved numbers into their lines; Undo in the editor takes them back">Write into the text</button>
     <button class="needs-control" disabled=${!moved} onClick=${() => act("numbers/reset")}
       title="Take all numbers back to those of the text">Reset</button>
     <span class="beside" role="status">${said || ""}</span>

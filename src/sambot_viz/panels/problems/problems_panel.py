@@ -116,7 +116,9 @@ class ProblemsPanel(Panel):
         if fix is not None and self._text is not None and self._text.holds(fix.edits):
             self._text.apply(fix.edits)
             hint = fix.hint if self._folders else without_folders(fix.hint)
-            return Answer(f"Applied: {hint}; it is not saved")
+            files = {self._text.name_of(edit.file) for edit in fix.edits}
+            differs = any(buffer.name in files for buffer in self._text.unsaved)
+            return Answer(f"Applied: {hint}{'; it is not saved' if differs else ''}")
         if self._edits is None or fix is None:
             raise UsageError("this problem is no longer there")
         try:
