@@ -190,6 +190,17 @@ def test_driving_fixes_a_frame_that_the_robot_moves_in(
     assert session.scene.context.fixed_frame == "base_link"
 
 
+def test_back_at_its_start_the_frame_that_was_fixed_before_is_told(
+    panel: DrivePanel, session: Session, client: Client
+) -> None:
+    with session.history.acting(client.client_id):
+        assert send(panel, "drive/hold", [0.5, 0]) == IN_ODOM
+        again = Answer("Fixed Frame is base_link again")
+        assert send(panel, "drive/reset", None) == again
+        assert send(panel, "drive/reset", None) is None
+    assert session.scene.context.fixed_frame == "base_link"
+
+
 def test_starting_to_drive_keeps_the_camera_and_reset_brings_it_back(
     panel: DrivePanel, session: Session, client: Client
 ) -> None:

@@ -159,8 +159,9 @@ class DrivePanel(Panel):
         self._drive.stop()
 
     @command("drive/reset")
-    def _reset(self) -> None:
-        self._follow_view.back_to_start()
+    def _reset(self) -> Answer | None:
+        put_back = self._follow_view.back_to_start()
+        return Answer(f"Fixed Frame is {put_back} again") if put_back else None
 
     def _go(self, v: float, w: float) -> Answer | None:
         """Drive; from rest, see to it that the motion can be seen."""

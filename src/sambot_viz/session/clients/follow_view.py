@@ -134,12 +134,15 @@ class FollowView:
             if not self._is_seen(client, place):
                 self._pan(client, place - client.view.camera.look_at)
 
-    def back_to_start(self) -> None:
+    def back_to_start(self) -> str:
         """Put the robot back, and undo what driving has changed.
 
         That is the fixed frame, the way of the camera and the frame odom. Fixed frame
         and odom change by edits that can be undone; odom stays while the fixed frame is
         odom or something else is in it. Who looks at the robot looks at it there.
+
+        Returns:
+            The fixed frame that was put back; "" if it stays.
         """
         with self._lock:
             self._drive.draw()
@@ -162,9 +165,9 @@ class FollowView:
                     # Its page was loaded meanwhile, or its user has gone along.
                     if _apart(middle, before) < _apart(middle, place):
                         client.view.pan(way)
-            self._put_back()
+            return self._put_back()
 
-    def _put_back(self) -> None:
+    def _put_back(self) -> str:
         with self._lock:
             self._driving.to()
             for client_id, way in self._panned.items():
@@ -173,12 +176,15 @@ class FollowView:
                     self._pan(client, -way)
             self._driver, self._panned = None, {}
             before, self._fixed_before = self._fixed_before, None
+            put_back = ""
             if before is not None and self._context.fixed_frame == ODOM:
                 config, fixed = before
                 if config is self._document.config:
                     self._document.set_option("Fixed Frame", fixed)
+                    put_back = fixed
             if self._context.fixed_frame != ODOM:
                 self._drive.leave_odom()
+            return put_back
 
     def follow(self, place: Vector | None) -> None:
         """Bring the robot back when it moves and is not in the picture.
