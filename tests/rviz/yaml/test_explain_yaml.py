@@ -54,6 +54,14 @@ MANAGER = "Visualization Manager:\n"
             "f:2:13: error[config-yaml]: the bracket or brace opened here is not "
             "closed, or lacks a comma; close it, and put commas between its parts",
         ),
+        *(
+            (
+                MANAGER + f"  Displays: {opened}",
+                "f:2:13: error[config-yaml]: the bracket or brace opened here is not "
+                "closed, or lacks a comma; close it, and put commas between its parts",
+            )
+            for opened in ("[", "[a,", "[a, [b],\n\n", "{")
+        ),
         (
             MANAGER + '  Name: "root\n',
             "f:2:9: error[config-yaml]: the quotes that are opened here are never "

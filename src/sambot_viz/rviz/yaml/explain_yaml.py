@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import yaml
 
@@ -95,6 +97,21 @@ def _indent(line: str) -> str:
     return line[: len(line) - len(line.lstrip(" "))]
 
 
+def _last_open(lines: Sequence[str]) -> tuple[int, int] | None:
+    """Return line and column of the innermost bracket or brace that is not closed."""
+    opened: list[tuple[int, int]] = []
+    begins = (yaml.FlowSequenceStartToken, yaml.FlowMappingStartToken)
+    ends = (yaml.FlowSequenceEndToken, yaml.FlowMappingEndToken)
+    with suppress(yaml.YAMLError):
+        scan = cast("Callable[[str], Iterator[Any]]", yaml.scan)  # pyright: ignore[reportUnknownMemberType]
+        for token in scan("\n".join(lines)):
+            if isinstance(token, begins):
+                opened.append((token.start_mark.line + 1, token.start_mark.column + 1))
+            elif isinstance(token, ends) and opened:
+                opened.pop()
+    return opened[-1] if opened else None
+
+
 class _YamlCause(NamedTuple):
     line: int
     column: int | None
@@ -146,6 +163,9 @@ class _Slip:
         if "flow" in self.said:
             message = "the bracket or brace opened here is not closed, or lacks a comma"
             hint = "close it, and put commas between its parts"
+            if self.began is not None and self.began[0] > len(self.lines):
+                # At the end of the file the reader names the end alone.
+                self.began = _last_open(self.lines) or self.began
             return self._at_beginning(message, hint)
         if "not allowed" in self.said and "mapping values" in self.said:
             return self._stray_colon(here)
