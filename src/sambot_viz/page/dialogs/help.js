@@ -14,7 +14,7 @@ const KEYS = [
       ["Left button", "turn"],
       ["Middle button, or Shift and left", "move"],
       ["Right button, or wheel", "zoom"],
-      ["F", "look at the selection, or at the robot"],
+      ["F", "look at what is under the mouse, or at the robot; with Select, at the selection"],
       ["Z", "reset the view to its default"],
       ["1 3 7", "front, right side, top without perspective; 1 or 3 again: back, left side"],
       ["R", "reload meshes and redraw"],
