@@ -113,3 +113,22 @@ def test_a_substitution_with_other_words_than_it_takes(
     problem, _ = first(tmp_path, "", *lines)
 
     assert (problem.line, problem.hint) == (3, advice)
+
+
+@pytest.mark.parametrize(
+    ("others", "advice"),
+    [
+        ('<xacro:property name="pos_z" value="1"/>${pos_z}', 'write name="pos_y"'),
+        ("", 'write name="pos_y" on line 2: wheel_y is used nowhere'),
+    ],
+)
+def test_half_a_rename_is_a_property_that_nothing_uses(
+    tmp_path: Path, others: str, advice: str
+) -> None:
+    used = '<link name="l${wheel_pos_y}"/><link name="r${wheel_pos_y}"/>'
+    lines = ['<xacro:property name="wheel_y" value="1"/>', others, used]
+    lines = [line.replace("pos_z", "wheel_pos_z") for line in lines]
+    problem, model = first(tmp_path, "", *lines)
+    assert advice.replace("pos_y", "wheel_pos_y") in problem.hint
+    text = apply_edits(problem.edits, model.read_text())
+    assert '<xacro:property name="wheel_pos_y" value="1"/>' in text

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 
 from sambot_viz.edits import (
     Extent,
@@ -14,7 +15,7 @@ from sambot_viz.edits import (
 )
 from sambot_viz.errors import Fix, Place, Problem, did_you_mean, nearest
 from sambot_viz.robot.slips.needs_xacro import OWN_TAGS
-from sambot_viz.robot.slips.vocabulary import meant
+from sambot_viz.robot.slips.vocabulary import is_one_slip, meant
 from sambot_viz.robot.xacro.diagnose.failed_expansion import (
     FailedExpansion,
     line_in,
@@ -141,6 +142,9 @@ def _near_name(failed: FailedExpansion, name: str) -> str | Fix:
         if 1 in (len(each), len(name)) and each[0].lower() == name[0].lower()
     ]
     near = next(iter(alike), None) or nearest(name, [*things, *_BUILT_IN])
+    if near is None or _uses(failed)[near] or not is_one_slip(name, near):
+        # Half a rename leaves a property that nothing uses.
+        near = _unused(failed, name, set(things).difference(own)) or near
     if near in things:
         where = line_in(things[near], failed.at)
         if near not in own and _is_odd(failed, near, name):
@@ -164,16 +168,31 @@ def _near_name(failed: FailedExpansion, name: str) -> str | Fix:
 
 def _is_odd(failed: FailedExpansion, defined: str, name: str) -> bool:
     """Return whether a name is used again and again, and the one defined never."""
-    texts = [source.text for _, source in failed.sources.sources()]
-    used = {
-        each: sum(
-            len(re.findall(rf"(?<![\w.]){re.escape(each)}(?!\w)", expression))
-            for text in texts
-            for expression in re.findall(r"\$\{[^}]*\}", text)
-        )
-        for each in (defined, name)
-    }
+    used = _uses(failed)
     return used[defined] == 0 and used[name] > 1
+
+
+def _unused(failed: FailedExpansion, name: str, properties: set[str]) -> str | None:
+    """Return the property without a use that alone has the most words of a name."""
+    used, words = _uses(failed), set(name.lower().split("_"))
+    shared = {
+        each: len(words.intersection(each.lower().split("_")))
+        for each in properties
+        if used[each] == 0
+    }
+    most = max(shared.values(), default=0)
+    found = [each for each, count in shared.items() if count == most]
+    return found[0] if most > 1 and len(found) == 1 else None
+
+
+def _uses(failed: FailedExpansion) -> Counter[str]:
+    """Return how often each name is in an expression of the files."""
+    return Counter(
+        name
+        for _, source in failed.sources.sources()
+        for expression in re.findall(r"\$\{[^}]*\}", source.text)
+        for name in re.findall(r"(?<![\w.])[A-Za-z_]\w*", expression)
+    )
 
 
 def _beside(failed: FailedExpansion, name: str) -> str:
