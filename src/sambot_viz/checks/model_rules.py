@@ -35,6 +35,7 @@ from sambot_viz.checks.model.physics import (
 )
 from sambot_viz.checks.model.prefixed_names import names_without_prefix
 from sambot_viz.checks.model.proportion import lengths_out_of_proportion
+from sambot_viz.checks.model.relative_meshes import relative_meshes
 from sambot_viz.checks.model.sensor_words import (
     beside_sensors,
     gazebo_words,
@@ -75,6 +76,7 @@ RULES: tuple[Rule, ...] = (
     unusable_meshes,
     meshes_of_wrong_size,
     copied_meshes,
+    relative_meshes,
     unlike_twins,
     wheels_off_the_ground,
     wheels_across_their_axles,
