@@ -607,7 +607,10 @@ def test_the_shape_of_an_arm_does_not_count_for_the_footprint(copied: Copied) ->
     edit(package / MODEL, "</robot>", arm.format("revolute", limit))
     assert codes(package) == []
     edit(package / MODEL, 'type="revolute"', 'type="fixed"')
-    assert codes(package) == ["footprint-size"] * 2
+    (problem,) = check(package)
+    assert problem.code == "footprint-size"
+    assert problem.file == str(package / MODEL)
+    assert "the rest of the robot fits" in problem.message
 
 
 def test_wheels_that_skid_may_have_a_larger_separation(copied: Copied) -> None:

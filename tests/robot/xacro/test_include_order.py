@@ -132,3 +132,13 @@ def test_half_a_rename_is_a_property_that_nothing_uses(
     assert advice.replace("pos_y", "wheel_pos_y") in problem.hint
     text = apply_edits(problem.edits, model.read_text())
     assert '<xacro:property name="wheel_pos_y" value="1"/>' in text
+
+
+def test_a_command_in_braces_is_a_substitution(tmp_path: Path) -> None:
+    lines = ['<xacro:arg name="b" default="base"/>', '<link name="${arg b}"/>']
+    problem, model = first(tmp_path, "", *lines)
+    assert (problem.code, problem.hint) == ("xacro-expression-syntax", "write $(arg b)")
+    right = apply_edits(problem.edits, model.read_text())
+    assert '<link name="$(arg b)"/>' in right
+    model.write_text(right)
+    assert check(model) == []

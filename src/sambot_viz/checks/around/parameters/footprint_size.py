@@ -10,7 +10,7 @@ from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.parameters.polygon import distance, polygon_of
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.rule import number
-from sambot_viz.errors import Problem
+from sambot_viz.errors import Place, Problem
 from sambot_viz.geometry import PlainPose, Vector2, Vector3
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Box, Cylinder, MeshFile, Shape, Sphere
@@ -68,7 +68,11 @@ def compare(robot: Robot, frame: str, said: Parameter) -> Iterator[Problem]:
         return
     farthest = outside.index(max(outside))
     place = robot.links[reach.links[farthest]].place
-    if outside[farthest] > max(_SMALLEST_GAP, _SHARE * size):
+    gap = max(_SMALLEST_GAP, _SHARE * size)
+    beyond = {name for name, far in zip(reach.links, outside, strict=True) if far > gap}
+    if outside[farthest] > size and 2 * len(beyond) <= len(set(reach.links)):
+        yield _far_outside(said, reach.links[farthest], place, outside[farthest])
+    elif outside[farthest] > gap:
         yield _finding(
             said,
             f"the robot is larger than its {said.name} here: the collision shape of "
@@ -79,6 +83,21 @@ def compare(robot: Robot, frame: str, said: Parameter) -> Iterator[Problem]:
         )
     else:
         yield from _too_large(robot, frame, said, size)
+
+
+def _far_outside(
+    said: Parameter, link: str, place: Place | None, outside: float
+) -> Problem:
+    """Report a part farther outside than the footprint reaches, where the rest fits."""
+    return Problem.at(
+        place,
+        "warning",
+        "footprint-size",
+        f"the collision shape of {link} is {number(round(outside, 3))} m outside of "
+        f"the {said.name} ({where(said.place, place)}), which the rest of the robot "
+        "fits: one of the two is wrong",
+        f"correct the size or the place of {link}, or the footprint and radius of Nav2",
+    )
 
 
 def _too_large(

@@ -151,6 +151,8 @@ class FailedExpansion:
         """Return a hint with what it changes in the failed expression."""
         if hint == CORRECT_PATH:
             return self._file_fix
+        if not self.found and hint.startswith("write $("):
+            return self.rewrite(r"\$\{[^{}]*\}", hint.removeprefix("write "), hint)
         for said, wrong in _WORDS:
             right = said.match(hint)
             if right is not None:
@@ -244,6 +246,14 @@ class FailedExpansion:
         command, _, rest = name.partition(" ")
         near = meant(command, _SUBSTITUTIONS) if rest else None
         return f"write $({near} {rest}); " if near else ""
+
+    @property
+    def as_substitution(self) -> str:
+        """How a command is written that stands in ${…}: "write $(arg width)"."""
+        command, _, rest = self.expression.strip().partition(" ")
+        if command in _SUBSTITUTIONS and rest.strip():
+            return f"write $({command} {rest.strip()})"
+        return "write one Python expression inside ${…}, such as ${2*radius}"
 
     @property
     def _file_fix(self) -> Fix:

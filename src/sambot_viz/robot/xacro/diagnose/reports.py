@@ -239,7 +239,7 @@ ROWS: tuple[tuple[str, str, str, str, str], ...] = (
         r"^SyntaxError",
         "xacro-expression-syntax",
         "the expression ${{{x.expression}}} cannot be read ({x.text}){x.trail}",
-        "write one Python expression inside ${{…}}, such as ${{2*radius}}",
+        "{x.as_substitution}",
         EXPRESSION,
     ),
     (
