@@ -142,3 +142,16 @@ def test_a_command_in_braces_is_a_substitution(tmp_path: Path) -> None:
     assert '<link name="$(arg b)"/>' in right
     model.write_text(right)
     assert check(model) == []
+
+
+def test_a_missing_value_is_that_of_the_other_calls(tmp_path: Path) -> None:
+    macro = (
+        '<xacro:macro name="part" params="side at"><link name="${side}${at}"/>'
+        "</xacro:macro>"
+    )
+    lines = [macro, '<xacro:part side="l" at="1"/>', '<xacro:part side="r"/>']
+    problem, _ = first(tmp_path, "", *lines)
+    assert problem.code == "xacro-parameter-missing"
+    assert problem.hint.startswith('add at="1", or give a default')
+    problem, _ = first(tmp_path, "", *lines, '<xacro:part side="m" at="2"/>')
+    assert problem.hint.startswith('add at="…", or give a default')

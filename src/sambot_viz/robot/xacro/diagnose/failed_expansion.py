@@ -335,8 +335,22 @@ class FailedExpansion:
 
     @property
     def values(self) -> str:
-        """Attributes for the names of a comma list: side="…" y="…"."""
-        return " ".join(f'{name}="…"' for name in self.listed)
+        """Attributes for the names of a comma list: side="…" y="0.1".
+
+        A value is that of all other calls of the macro, if these have the same one.
+        """
+        return " ".join(f'{name}="{self._usual(name)}"' for name in self.listed)
+
+    def _usual(self, parameter: str) -> str:
+        """Return the only value that calls of the macro have for a parameter, or …."""
+        given = {
+            value
+            for _, source in self.sources.sources()
+            for tag in source.tags
+            if tag.name == f"xacro:{self.called}"
+            and (value := tag.get(parameter)) is not None
+        }
+        return given.pop() if len(given) == 1 else "…"
 
     def error(self, code: str, message: str, hint: str | Fix) -> Problem:
         """Make a problem of severity "error" at the place."""
