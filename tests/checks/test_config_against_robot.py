@@ -174,3 +174,10 @@ def test_the_bad_configs_of_the_collection_are_explained(
     assert problem.line is not None
     assert abs(problem.line - line) <= 1
     assert word in problem.message
+
+
+def test_a_robot_with_alpha_zero_is_invisible(checked: Checked) -> None:
+    named = "Name: RobotModel\n      Alpha: {}"
+    for alpha, count in (("0", 1), ("0.0", 1), ("0.6", 0)):
+        found = checked(GOOD.replace("Name: RobotModel", named.format(alpha)))
+        assert len([p for p in found if p.hint == "write Alpha: 1"]) == count

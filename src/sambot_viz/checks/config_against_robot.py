@@ -164,14 +164,31 @@ def _switched_off(display: DisplayConfig, file: str | None) -> Problem:
     )
 
 
+def _is_transparent(display: DisplayConfig) -> bool:
+    try:
+        return float(display.node.text("Alpha") or "1") == 0
+    except ValueError:
+        return False
+
+
 def _shows_nothing(display: DisplayConfig) -> bool:
-    """Return whether a robot display shows neither visuals nor collisions."""
+    """Return whether a robot display has nothing to see: no shapes, or no alpha."""
     node = display.node
     shown = node.text("Collision Enabled") or "false"
-    return node.text("Visual Enabled") == "false" and shown == "false"
+    without_shapes = node.text("Visual Enabled") == "false" and shown == "false"
+    return without_shapes or _is_transparent(display)
 
 
 def _without_shapes(display: DisplayConfig, file: str | None) -> Problem:
+    if _is_transparent(display):
+        place = _place(file, display.node.get("Alpha"))
+        return Problem.at(
+            place,
+            "info",
+            "setup-no-robot-model",
+            "the RobotModel display has the Alpha 0: the robot is invisible",
+            _written(place, display.node.text("Alpha") or "", "1", "Alpha: 1"),
+        )
     return Problem.at(
         _place(file, display.node.get("Visual Enabled")),
         "info",
