@@ -144,14 +144,23 @@ def test_a_command_in_braces_is_a_substitution(tmp_path: Path) -> None:
     assert check(model) == []
 
 
-def test_a_missing_value_is_that_of_the_other_calls(tmp_path: Path) -> None:
-    macro = (
-        '<xacro:macro name="part" params="side at"><link name="${side}${at}"/>'
-        "</xacro:macro>"
-    )
-    lines = [macro, '<xacro:part side="l" at="1"/>', '<xacro:part side="r"/>']
+@pytest.mark.parametrize(
+    ("name", "values", "right"),
+    [
+        ("at", ["${h}"], "${h}"),
+        ("at", ["${h}", "${h}"], "${h}"),
+        ("at", ["${h}", "${-h}"], "…"),
+        ("at", ["1"], "…"),
+        ("y", ["${h}"], "…"),
+    ],
+)
+def test_a_missing_value_is_that_of_the_other_calls(
+    tmp_path: Path, name: str, values: list[str], right: str
+) -> None:
+    macro = f'<xacro:macro name="part" params="on {name}"><link name="${{on}}"/>'
+    calls = [f'<xacro:part on="l{n}" {name}="{v}"/>' for n, v in enumerate(values)]
+    height = '<xacro:property name="h" value="1"/>'
+    lines = [height, f"{macro}</xacro:macro>", *calls, '<xacro:part on="r"/>']
     problem, _ = first(tmp_path, "", *lines)
     assert problem.code == "xacro-parameter-missing"
-    assert problem.hint.startswith('add at="1", or give a default')
-    problem, _ = first(tmp_path, "", *lines, '<xacro:part side="m" at="2"/>')
-    assert problem.hint.startswith('add at="…", or give a default')
+    assert problem.hint.startswith(f'add {name}="{right}", or give a default')

@@ -47,6 +47,8 @@ _WORDS = (
 )
 """Hint that says a word → the word that it is written for."""
 
+_OF_SIDES = re.compile("y|side|mirror|sign|name|prefix|parent|flect")
+"""In the names of parameters that differ between the sides of a robot."""
 _SUBSTITUTIONS = ("find", "arg", "env", "optenv", "cwd", "dirname", "eval")
 
 _EXAMPLES = {
@@ -337,20 +339,23 @@ class FailedExpansion:
     def values(self) -> str:
         """Attributes for the names of a comma list: side="…" y="0.1".
 
-        A value is that of all other calls of the macro, if these have the same one.
+        A value is that of all other calls of the macro, if these have the same one;
+        that of a single one may be the other side's.
         """
         return " ".join(f'{name}="{self._usual(name)}"' for name in self.listed)
 
     def _usual(self, parameter: str) -> str:
         """Return the only value that calls of the macro have for a parameter, or …."""
-        given = {
+        given = [
             value
             for _, source in self.sources.sources()
             for tag in source.tags
             if tag.name == f"xacro:{self.called}"
             and (value := tag.get(parameter)) is not None
-        }
-        return given.pop() if len(given) == 1 else "…"
+        ]
+        alike = len(given) > 1 or _OF_SIDES.search(parameter.lower()) is None
+        is_usual = len(set(given)) == 1 and alike and "${" in given[0]
+        return given[0] if is_usual else "…"
 
     def error(self, code: str, message: str, hint: str | Fix) -> Problem:
         """Make a problem of severity "error" at the place."""
