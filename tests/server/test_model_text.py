@@ -161,15 +161,18 @@ def test_a_fix_mends_the_text_by_the_panel_problems_too(
     (problem,) = (p for p in editor.problems() if p["severity"] == "error")
     editor.client.act("model/fix", problem["id"])
     editor.client.wait_until(lambda: editor.text == GOOD)
-    rows = editor.client.rows
+
+    def acts() -> list[tuple[Any, ...]]:
+        return [row["act"] for row in editor.client.rows.values() if "act" in row]
+
     # The saved text is back; or it is not, after another change.
     for text in (GOOD, GOOD.replace('name="arm"/>', 'name="arm" />')):
         if text != GOOD:
             editor.replace('name="arm"/>', 'name="arm" />')
         editor.replace('parent link="hull"', 'parent link="hul"')
         assert editor.problems()
-        editor.client.wait_until(lambda: any("act" in row for row in rows.values()))
-        ((_, command, row),) = (row["act"] for row in rows.values() if "act" in row)
+        editor.client.wait_until(lambda: bool(acts()))
+        ((_, command, row),) = acts()
         editor.client.act(command, row)
         editor.client.wait_until(lambda text=text: editor.text == text)
         assert editor.notice.startswith("Applied: ")

@@ -479,7 +479,9 @@ def test_the_line_follows_the_mouse_until_the_second_click(browser: Browser) -> 
     browser.click_down(1.0, 1.0)
     assert tools.current.wants_hover
     tools.hover(on_screen(2.0, 1.0))
-    assert tools.status.startswith("1 m. Click two points or frames; Esc")
+    assert tools.status.startswith(
+        "1 m. Click two points or frames; a right click starts again, Esc "
+    )
     tools.hover(on_screen(1.0, 1.5))
     assert tools.status.startswith("0.5 m. ")
     tools.hover((2.0, 0.5))

@@ -85,14 +85,14 @@ def package(copied: Callable[[str], Path]) -> Path:
             'default_value="True"',
             "default_value=True",
             "launch-code",
-            "default_value is True, and launch arguments are texts",
+            "default_value is True, and launch takes only texts",
         ),
         (
             LAUNCH,
             '"entity_name": "cart"',
             '"entity_name": "cart", "z": 0.5',
             "launch-code",
-            "z is 0.5, and launch arguments are texts",
+            "z is 0.5, and launch takes only texts",
         ),
         (
             LAUNCH,

@@ -10,7 +10,6 @@ from typing import NamedTuple
 from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.around.launch_files.code import bound_names
 from sambot_viz.checks.around.launch_files.substitutions import substitution_in
-from sambot_viz.checks.around.launching.frontend_reader import written_parts
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.launching.python_parts import Call
 from sambot_viz.checks.around.place import key_place, rewritten
@@ -87,6 +86,9 @@ def _in_call(call: Call, launch: LaunchFile) -> _Condition | None:
 
 
 def _in_element(element: Element, name: str) -> _Condition:
+    # Import late: many packages have Python launch files only.
+    from sambot_viz.checks.around.launching.frontend_reader import written_parts
+
     written, place = element.get(name) or "", element.place
     is_xml = not place.file.endswith((".yaml", ".yml"))
     there = place if is_xml else key_place(place, name)

@@ -10,11 +10,6 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from sambot_viz.checks.around.launching.actions import SetArgument
-from sambot_viz.checks.around.launching.frontend_reader import (
-    read_frontend,
-    text_of,
-    written_parts,
-)
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.launching.python_parts import Call
 from sambot_viz.checks.around.launching.texts import LaunchTexts, evaluated
@@ -54,7 +49,13 @@ def uncomputable_expressions(around: Surroundings) -> Iterator[Problem]:
     for launch in around.launches:
         for call in launch.called("PythonExpression"):
             yield from _in_call(call, launch)
-    for root in (root for package in around.packages for root in package.frontends):
+    roots = [root for package in around.packages for root in package.frontends]
+    if not roots:
+        return
+    # Import late: many packages have Python launch files only.
+    from sambot_viz.checks.around.launching.frontend_reader import read_frontend
+
+    for root in roots:
         texts = LaunchTexts()
         for action in read_frontend(root):
             if isinstance(action, SetArgument) and isinstance(action.name, str):
@@ -87,12 +88,19 @@ def _in_call(call: Call, launch: LaunchFile) -> Iterator[Problem]:
 def _in_attribute(
     element: Element, name: str, value: str, texts: LaunchTexts
 ) -> Iterator[Problem]:
+    from sambot_viz.checks.around.launching.frontend_reader import (
+        text_of,
+        written_parts,
+    )
+
     place = element.place
     if place.file.endswith((".yaml", ".yml")):
         place = key_place(place, name)
     for written, is_text in written_parts(value):
         found = None if is_text else _PLAIN.fullmatch(written)
-        if found is not None and " " in _without_substitutions(found[2]):
+        plain = found is not None and written_parts(found[2])
+        words = "".join(part for part, is_plain in plain or () if is_plain)
+        if found is not None and " " in words:
             quoted = found[2].replace("'", "\\'")
             yield Problem.at(
                 place,
@@ -111,10 +119,6 @@ def _in_attribute(
                 for part, plain in written_parts(inner)
             ]
             yield from _unknown_words(parts, place, _in_eval)
-
-
-def _without_substitutions(text: str) -> str:
-    return "".join(part for part, is_text in written_parts(text) if is_text)
 
 
 def _in_eval(parts: Sequence[_ExpressionPart]) -> Fix:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, replace
-from functools import cached_property
 from pathlib import Path
 
+from sambot_viz.cached import cached_property
 from sambot_viz.edits import Extent, source_of, write_path
 from sambot_viz.errors import Fix, Place, Problem, did_you_mean, nearest
 from sambot_viz.robot.packages.near_file import near_file
