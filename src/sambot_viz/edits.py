@@ -469,6 +469,12 @@ def together(hint: str, *fixes: Fix) -> Fix:
     return Fix(hint, tuple(edit for fix in fixes for edit in fix.edits))
 
 
+def exchange(hint: str, one: tuple[Place, str], other: tuple[Place, str]) -> Fix:
+    """Return the fix that writes each of two texts, with its line, for the other."""
+    (here, said), (there, instead) = one, other
+    return together(hint, write(here, said, instead), write(there, instead, said))
+
+
 def _says(written: str, value: str | Sequence[float]) -> bool:
     if isinstance(value, str):
         return written == value

@@ -9,7 +9,7 @@ from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.gazebo.wheel_joints import meant_wheel, side_in
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.rule import axis_text, listed, number
-from sambot_viz.edits import rename_element, together, write
+from sambot_viz.edits import exchange, rename_element, write
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint
@@ -196,10 +196,10 @@ def _exchanged(left: _DriveWheel, right: _DriveWheel) -> Problem | None:
         f"{number(left.y)} m ({where(left.joint.place, of.place)}), and that of "
         f"{right.joint.name} ({where(right.fact.place, of.place)}) on the left: the "
         "robot turns the wrong way",
-        together(
+        exchange(
             f"exchange {name} and {right.joint.name}",
-            write(of.place, name, right.joint.name),
-            write(right.fact.place, right.joint.name, name),
+            (of.place, name),
+            (right.fact.place, right.joint.name),
         ),
     )
 

@@ -17,9 +17,9 @@ from sambot_viz.checks.clues import guess
 from sambot_viz.checks.rule import number
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import (
+    exchange,
     rename_attribute,
     rename_element,
-    together,
     write,
     write_attribute,
 )
@@ -249,10 +249,10 @@ def _exchanged(sensor: Element, element: Element) -> Iterator[Problem]:
         if one is not None and other is not None and one > other:
             fix = Fix(f"write less than {number(other)} for <{low}>")
             if other <= _NEAR or one >= _FAR * other:
-                fix = together(
+                fix = exchange(
                     f"exchange {number(one)} and {number(other)}",
-                    write(least[0].place, least[0].value, most[0].value),
-                    write(most[0].place, most[0].value, least[0].value),
+                    (least[0].place, least[0].value),
+                    (most[0].place, most[0].value),
                 )
             yield Problem.at(
                 least[0].place,

@@ -11,7 +11,7 @@ from sambot_viz.checks.around.files.parameters import YamlFile, pairs, place_of
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
-from sambot_viz.edits import together, write
+from sambot_viz.edits import exchange, write
 from sambot_viz.errors import Place, Problem, nearest
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 
@@ -97,10 +97,10 @@ def _exchanged(file: YamlFile) -> Iterator[Problem]:
                 f"free_thresh is {free.value}, and occupied_thresh "
                 f"({where(occupied.place, free.place)}) is less: hardly a cell of the "
                 "map is free and none unknown",
-                together(
+                exchange(
                     f"exchange {free.value} and {occupied.value}",
-                    write(free.place, free.value, occupied.value),
-                    write(occupied.place, occupied.value, free.value),
+                    (free.place, free.value),
+                    (occupied.place, occupied.value),
                 ),
             )
 

@@ -12,7 +12,7 @@ from sambot_viz.checks.around.parameters.node_parts import NodePart
 from sambot_viz.checks.around.parameters.text import instead, number_of
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.rule import number
-from sambot_viz.edits import together, write
+from sambot_viz.edits import exchange, together, write
 from sambot_viz.errors import Fix, Problem
 
 
@@ -50,7 +50,7 @@ def out_of_range(
             "parameter-value",
             f"{parameter.name} is {one}, which is more than {other.name}, {two} "
             f"({where(other.place, here)})",
-            together(hint, write(here, one, two), write(there, two, one)),
+            exchange(hint, (here, one), (there, two)),
         )
 
 

@@ -25,7 +25,7 @@ from sambot_viz.checks.around.parameters.text import (
 )
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.edits import together, write
+from sambot_viz.edits import exchange, together, write
 from sambot_viz.errors import Fix, Place, Problem, nearest
 
 _LIKENESS = 0.8
@@ -75,10 +75,8 @@ def _exchanged(part: NodePart) -> dict[Parameter, list[Problem]]:
             f"{one.name} is {said}, and {two.name} is {other} "
             f"({where(two.place, here)}): each has the type of the other, and "
             f"{part.node} stops with an error",
-            together(
-                f"write {other} here and {said} there",
-                write(here, said, other),
-                write(there, other, said),
+            exchange(
+                f"write {other} here and {said} there", (here, said), (there, other)
             ),
         )
         found |= {one: [problem], two: []}

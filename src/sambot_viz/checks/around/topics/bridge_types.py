@@ -11,7 +11,7 @@ from sambot_viz.checks.around.running.bridge_entries import BridgeEntry, bare
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.topics.read import published_topics, used_topics
 from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.edits import together, write
+from sambot_viz.edits import exchange, together, write
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 
@@ -75,10 +75,10 @@ def _exchanged(entry: BridgeEntry) -> Iterator[Problem]:
                     f"{wrong.value} is no type, but {other.value} is "
                     f"({where(other.place, wrong.place)}): they are exchanged, and "
                     f"nothing arrives on {entry.ros.value}",
-                    together(
+                    exchange(
                         f"write {other.value}, and {wrong.value} there",
-                        write(wrong.place, wrong.value, other.value),
-                        write(other.place, other.value, wrong.value),
+                        (wrong.place, wrong.value),
+                        (other.place, other.value),
                     ),
                 )
 

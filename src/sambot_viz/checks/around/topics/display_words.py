@@ -14,7 +14,7 @@ from sambot_viz.checks.around.topics.display_settings import (
 )
 from sambot_viz.checks.around.words import meant_word
 from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.edits import together, write, write_between
+from sambot_viz.edits import exchange, write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 
@@ -109,10 +109,10 @@ def _no_class(kind: Fact, one: Settings, classes: list[str]) -> Problem:
     other = next((each for each in one.values.values() if each.value in classes), None)
     fix = Fix("write a class such as rviz_default_plugins/Grid")
     if other is not None:
-        fix = together(
+        fix = exchange(
             f"write {other.value}, and {kind.value} there",
-            write(kind.place, kind.value, other.value),
-            write(other.place, other.value, kind.value),
+            (kind.place, kind.value),
+            (other.place, other.value),
         )
     return Problem.at(
         kind.place,

@@ -9,8 +9,8 @@ from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.running.system import Endpoint, RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.topics.read import is_placed, published_topics
-from sambot_viz.edits import together, write
-from sambot_viz.errors import Fix, Place, Problem
+from sambot_viz.edits import exchange, write
+from sambot_viz.errors import Place, Problem
 
 
 def topics_of_oneself(around: Surroundings) -> Iterator[Problem]:
@@ -138,10 +138,9 @@ def exchanged_relays(around: Surroundings) -> Iterator[Problem]:
             f"{node.path.strip('/')} reads {one.written}, which nothing publishes, and "
             f"publishes {two.written}, as another node does already "
             f"({where(source.place, first)}): the two are exchanged",
-            _exchange(first, one.written, second, two.written),
+            exchange(
+                f"write {two.written}, {one.written}",
+                (first, one.written),
+                (second, two.written),
+            ),
         )
-
-
-def _exchange(first: Place, one: str, second: Place, two: str) -> Fix:
-    hint = f"write {two}, {one}"
-    return together(hint, write(first, one, two), write(second, two, one))
