@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import ast
-import builtins
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.checks.around.launch_files.imports import modules
+from sambot_viz.checks.around.launch_files.names import PREDEFINED, bound_names
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.launch_files import call_name, imported_by
+from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
 
@@ -27,7 +27,6 @@ _LIKENESS = 0.8
 _IN_SETUP = {"glob": "glob", "setup": "setuptools", "find_packages": "setuptools"}
 _NEVER_CALLED = (ast.Tuple, ast.List, ast.Dict, ast.Constant, ast.JoinedStr)
 _MODULES = frozenset({"launch", "launch_ros", "os", "sys", "xacro"})
-PREDEFINED = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__"}
 
 
 def empty_launch_files(around: Surroundings) -> Iterator[Problem]:
@@ -284,37 +283,6 @@ def _imported(line: str, file: LaunchFile | SetupFile) -> Fix:
             begin = Place(file.shown, step.lineno, 1)
             return write_between(begin, begin, f"{line}\n\n", hint)
     return Fix(hint)
-
-
-def bound_names(tree: ast.Module) -> set[str]:
-    """Return all names that get a value anywhere in a file; "*" for possible others."""
-    return {*PREDEFINED, *names_in(tree)}
-
-
-def names_in(tree: ast.AST) -> set[str]:
-    """Return the names that get a value in some Python; "*" for possible others."""
-    found: set[str] = set()
-    for node in ast.walk(tree):
-        match node:
-            case ast.Name(id=name, ctx=ast.Store() | ast.Del()):
-                found.add(name)
-            case ast.Import() | ast.ImportFrom():
-                found.update(each.name for each in imported_by(node))
-            case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
-                found.add(node.name)
-            case ast.arg(arg=name) | ast.ExceptHandler(name=str(name)):
-                found.add(name)
-            case ast.MatchAs(name=str(name)) | ast.MatchStar(name=str(name)):
-                found.add(name)
-            case ast.MatchMapping(rest=str(name)):
-                found.add(name)
-            case ast.Call(func=ast.Name(id="exec" | "globals" | "vars" | "locals")):
-                found.add("*")
-            case _ if type(node).__name__ in ("TypeVar", "TypeAlias"):
-                found.add("*")
-            case _:
-                pass
-    return found
 
 
 def _is_bound(name: str, tree: ast.Module) -> bool:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from sambot_viz.checks.around.files.parameters import flag
-from sambot_viz.checks.around.launch_files.code import bound_names
+from sambot_viz.checks.around.launch_files.names import bound_names, with_import
 from sambot_viz.checks.around.launch_files.substitutions import substitution_in
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.launching.python_parts import Call
@@ -77,7 +77,7 @@ def _in_call(call: Call, launch: LaunchFile) -> _Condition | None:
         whole, hint = f"{name}({right})", f"write {name}({right})"
         if name in bound_names(launch.tree):
             return rewritten(call.node, launch.shown, whole)
-        return Fix(f"{hint}, and import {name} from launch.conditions")
+        return Fix(with_import(hint, name, launch))
 
     def compared(source: str, test: str) -> str:
         return f'PythonExpression(["\'", {source}, "\' {test}"])'
@@ -187,9 +187,7 @@ def bare_conditions(around: Surroundings) -> Iterator[Problem]:
             if not is_text and substitution_in(given, launch) is None:
                 continue
             right = f"IfCondition({ast.unparse(given)})"
-            hint = f"write {right}"
-            if "IfCondition" not in bound_names(launch.tree):
-                hint += ", and import IfCondition from launch.conditions"
+            hint = with_import(f"write {right}", "IfCondition", launch)
             yield Problem.at(
                 launch.place(given),
                 "error",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.launch_files.code import bound_names
+from sambot_viz.checks.around.launch_files.names import bound_names, with_import
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.launching.python_parts import Call, Listing
 from sambot_viz.checks.around.place import rewritten, where
@@ -121,8 +121,7 @@ def plain_handlers(around: Surroundings) -> Iterator[Problem]:
                 if name in _HANDLERS:
                     right = f"{_REGISTER}({ast.unparse(node)})"
                     hint = f"write {_REGISTER}(…) around it"
-                    if _REGISTER not in bound_names(launch.tree):
-                        hint += f", and import {_REGISTER} from launch.actions"
+                    hint = with_import(hint, _REGISTER, launch)
                     yield Problem.at(
                         launch.place(node),
                         "error",

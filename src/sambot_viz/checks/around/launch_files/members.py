@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from sambot_viz.checks.around.launch_files.code import PREDEFINED, names_in
+from sambot_viz.checks.around.launch_files.names import PREDEFINED, names_in
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.surroundings import Surroundings

@@ -7,7 +7,7 @@ import posixpath
 import re
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.launch_files.code import bound_names
+from sambot_viz.checks.around.launch_files.names import bound_names
 from sambot_viz.checks.around.launching.actions import RobotText
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.launching.python_parts import (

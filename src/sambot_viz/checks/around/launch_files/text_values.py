@@ -5,10 +5,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+from sambot_viz.checks.around.launch_files.names import with_import
 from sambot_viz.checks.around.launching.launch_file import NODES, LaunchFile
 from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write_between
 from sambot_viz.errors import Fix, Place, Problem
 
@@ -152,7 +152,4 @@ def _compared(item: ast.expr, left: ast.expr, right: str, launch: LaunchFile) ->
         return Fix(f"write UnlessCondition({said}) for the whole")
     name = "EqualsSubstitution"
     hint = f"write {name}({said}, '{right}')"
-    bound = any(call_name(call.node.func) == name for call in launch.calls)
-    return Fix(
-        hint + ("" if bound else f", and import {name} from launch.substitutions")
-    )
+    return Fix(with_import(hint, name, launch))

@@ -7,7 +7,7 @@ import posixpath
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
 
-from sambot_viz.checks.around.launch_files.code import PREDEFINED, bound_names
+from sambot_viz.checks.around.launch_files.names import PREDEFINED, bound_names
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.setup_file import (
