@@ -48,6 +48,8 @@ from typing import Literal
 from sambot_viz.text import line
 
 Severity = Literal["error", "warning", "info"]
+SEVERITIES: tuple[Severity, ...] = ("error", "warning", "info")
+"""The order in which problems are shown."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,14 +16,11 @@ from functools import lru_cache
 from pathlib import Path
 
 from sambot_viz import limits
-from sambot_viz.errors import Edit, Problem, Severity
+from sambot_viz.errors import SEVERITIES, Edit, Problem, Severity
 from sambot_viz.files import read_limited
 from sambot_viz.outlet import Line, Painted, write_err
 from sambot_viz.text import line
 from sambot_viz.unsaved import unsaved_text
-
-SEVERITIES: tuple[Severity, ...] = ("error", "warning", "info")
-"""The order in which problems are shown."""
 
 MOST = 10
 """Maximum number of groups in a terminal; ``sambot-viz check`` prints all of them."""

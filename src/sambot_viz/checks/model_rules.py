@@ -53,7 +53,7 @@ from sambot_viz.checks.model.unused_macros import unused_macros
 from sambot_viz.checks.model.wheel_twins import unlike_twins
 from sambot_viz.checks.proven import proven
 from sambot_viz.checks.rule import Rule, Subject
-from sambot_viz.errors import Problem
+from sambot_viz.errors import SEVERITIES, Problem
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.xacro.at_calls import at_calls
 
@@ -116,8 +116,6 @@ _CAUSES: tuple[Rule, ...] = (
     wheels_off_the_ground,
 )
 """The rules about a model whose findings cause others."""
-
-_ORDER = {"error": 0, "warning": 1, "info": 2}
 
 
 def subject_of(
@@ -182,5 +180,5 @@ def in_order(problems: Sequence[Problem]) -> list[Problem]:
         once.setdefault(problem if problem.column is None else repeated, problem)
     return sorted(
         once.values(),
-        key=lambda p: (_ORDER[p.severity], p.file or "", p.line or 0),
+        key=lambda p: (SEVERITIES.index(p.severity), p.file or "", p.line or 0),
     )

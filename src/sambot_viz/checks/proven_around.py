@@ -10,11 +10,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from sambot_viz.checks.proven import drawback
-from sambot_viz.errors import Edit, Problem, Severity
+from sambot_viz.errors import SEVERITIES, Edit, Problem
 
 _MOST = 8
 """Maximum number of causes whose edits are tried."""
-_ORDER: tuple[Severity, ...] = ("error", "warning", "info")
 
 Again = Callable[[tuple[Edit, ...]], list[Problem] | None]
 """Finds the problems with edits; None where these break a file."""
@@ -31,7 +30,7 @@ def proven_around(
         again: finds the problems that the edited files have.
     """
     causes: dict[object, list[Problem]] = {}
-    for problem in sorted(found, key=lambda p: _ORDER.index(p.severity)):
+    for problem in sorted(found, key=lambda p: SEVERITIES.index(p.severity)):
         if problem.edits:
             key = problem.code, problem.place, problem.hint
             causes.setdefault(key, []).append(problem)

@@ -12,13 +12,13 @@ from pathlib import Path, PurePath
 from typing import NamedTuple, cast
 
 from sambot_viz import limits
-from sambot_viz.errors import Edit, Problem, Severity, UsageError
+from sambot_viz.errors import SEVERITIES, Edit, Problem, Severity, UsageError
 from sambot_viz.fixes import EditRefused
 from sambot_viz.panels.command import TEXT, Command, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Answer, Data, Json, Level, Row
 from sambot_viz.panels.unfolded import LazyRows
-from sambot_viz.problems import SEVERITIES, ProblemGroup, group_problems, problem_lines
+from sambot_viz.problems import ProblemGroup, group_problems, problem_lines
 from sambot_viz.session.editor.model_text import ModelText
 from sambot_viz.session.model_edits import ModelEdits
 from sambot_viz.session.shown_problems import Problems
