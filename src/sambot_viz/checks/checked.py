@@ -111,11 +111,8 @@ def check_all(
 
 def _only_of(path: Path, whole: Checked, package: Path) -> Checked:
     """Return the part of the check of a package that is about one of its files."""
-    own = [
-        problem
-        for problem in whole.problems
-        if problem.file is not None and Path(problem.file).absolute() == path.absolute()
-    ]
+    file = path.absolute()
+    own = [p for p in whole.problems if p.file and Path(p.file).absolute() == file]
     others = len(whole.problems) - len(own)
     return Checked(whole.models, tuple(own), package, others)
 

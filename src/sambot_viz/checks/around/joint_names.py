@@ -110,7 +110,8 @@ class _User(NamedTuple):
 
 
 def _named_joints(robot: Robot) -> Iterator[tuple[Fact, _User]]:
-    for plugin in plugins(robot.gazebo):
+    every = list(plugins(robot.gazebo))
+    for plugin in every:
         if plugin.generation is not None:
             named = [(tag, fact) for tag in JOINTS for fact in plugin.all(tag)]
             for tag, fact in named:
@@ -124,10 +125,10 @@ def _named_joints(robot: Robot) -> Iterator[tuple[Fact, _User]]:
                         frozenset(taken),
                     ),
                 )
-    files = [plugin.filename for plugin in plugins(robot.gazebo)]
+    is_ros1 = any(plugin.filename == _OF_ROS1 for plugin in every)
     for part in robot.gazebo:
         if part.tag in _WITH_JOINTS:
-            unread = part.tag == "transmission" and _OF_ROS1 not in files
+            unread = part.tag == "transmission" and not is_ros1
             joints = part.find_all("joint")
             for joint in joints:
                 fact = Fact(joint.get("name") or "", joint.place)

@@ -58,11 +58,11 @@ def unfit_interfaces(around: Surroundings) -> Iterator[Problem]:
     single = _of_a_single_robot(needs, joints)
     # The joints of a controller with its class in its own section may be those of
     # another robot, or of a controller before it.
+    declared = declared_controllers(around) if needs else {}
     single |= {
         need.controller
         for need in needs
-        if need.joint.value not in joints
-        and declared_controllers(around)[need.controller].name == "type"
+        if need.joint.value not in joints and declared[need.controller].name == "type"
     }
     for need in needs:
         if need.controller in single:

@@ -24,7 +24,7 @@ _READS = {
     _LIDAR: ("ray", "gpu_ray", "sonar"),
 }
 """Plugin of a sensor → the types of sensors that it reads."""
-_OF_MODELS = (
+OF_MODELS = (
     "_drive.so",
     "_joint_state_publisher.so",
     "_planar_move.so",
@@ -128,7 +128,7 @@ def _of_another_sensor(plugin: Plugin) -> Iterator[Problem]:
         if sensor.find(kind) is None and any(map(sensor.find, _READS[reads])):
             place = sensor.place
             fix = write_attribute(place, "type", kind, other)
-    elif not reads.endswith(_OF_MODELS):
+    elif not reads.endswith(OF_MODELS):
         return
     yield Problem.at(
         place,

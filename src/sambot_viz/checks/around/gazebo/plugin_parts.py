@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.files.gazebo import plugins
+from sambot_viz.checks.around.gazebo.classic_plugins import OF_MODELS
 from sambot_viz.edits import delete_attribute, write
 from sambot_viz.errors import Fix, Problem, nearest
 from sambot_viz.robot.model import Robot
@@ -16,16 +17,17 @@ _LINKS = ("bodyName", "body_name", "link_name", "linkName")
 """Elements in which plugins of Gazebo name a link."""
 _SCOPED = ("::", "/", "$")
 _REMAPPING = re.compile(r"(\S+?)\s*(?:=:|:|=|->|\s)\s*(\S+)")
-_OF_MODELS = re.compile(
-    r"lib(?:gazebo_ros_(?:diff_drive|skid_steer_drive|ackermann_drive|tricycle_drive|"
-    r"planar_move|joint_state_publisher|joint_pose_trajectory)|gazebo_ros2_control)\.so"
-    r"|(?:lib)?(?:gz-sim\d*|ignition-gazebo\d*)-(?:ackermann-steering|diff-drive|"
+_CLASSIC = ("libgazebo_ros_", "libgazebo_ros2_control.so")
+"""Beginnings of the plugins that come with Gazebo Classic for ROS 2."""
+_MORE_OF_MODELS = re.compile(
+    r"(?:lib)?(?:gz-sim\d*|ignition-gazebo\d*)-(?:ackermann-steering|diff-drive|"
     r"joint-controller|joint-position-controller|joint-state-publisher|"
     r"joint-trajectory-controller|mecanum-drive|odometry-publisher|pose-publisher|"
     r"tracked-vehicle|velocity-control)-system(?:\.so)?"
     r"|(?:lib)?(?:gz|ign)_ros2_control-system(?:\.so)?"
+    r"|libgazebo_ros_joint_pose_trajectory\.so"
 )
-"""Plugins that Gazebo loads only for a whole model."""
+"""Other plugins that Gazebo loads only for a whole model."""
 
 
 def plugins_of_links(robot: Robot) -> Iterator[Problem]:
@@ -34,7 +36,7 @@ def plugins_of_links(robot: Robot) -> Iterator[Problem]:
         name = part.get("reference") or ""
         for plugin in part.find_all("plugin") if name in robot.links else ():
             file = plugin.get("filename") or ""
-            if _OF_MODELS.fullmatch(file) is None:
+            if not _is_of_model(file):
                 continue
             alone = all(child.tag == "plugin" for child in part.children)
             hint = f'write <gazebo> without reference="{name}"'
@@ -49,6 +51,11 @@ def plugins_of_links(robot: Robot) -> Iterator[Problem]:
                 f"it is in the link {name}: Gazebo does not load it",
                 Fix(hint, edits),
             )
+
+
+def _is_of_model(file: str) -> bool:
+    is_classic = file.startswith(_CLASSIC) and file.endswith(OF_MODELS)
+    return is_classic or _MORE_OF_MODELS.fullmatch(file) is not None
 
 
 def words_in_plugins(robot: Robot) -> Iterator[Problem]:

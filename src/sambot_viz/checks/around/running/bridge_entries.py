@@ -148,14 +148,16 @@ def entries_in(
         if found is not None:
             topic, ros_type, arrow, gz_type = found.groups()
             renamed = (new for old, new in names if bare(old) == bare(topic))
-            yield BridgeEntry(
-                Fact(next(renamed, topic), place),
-                Fact(topic, place),
-                Fact(ros_type, place),
-                Fact(gz_type, place),
-                Fact(_ARROWS[arrow], place),
-                arrow,
-            )
+            ends = next(renamed, topic), topic, ros_type, gz_type
+            yield _argument(place, ends, arrow)
+
+
+def _argument(place: Place, ends: tuple[str, str, str, str], arrow: str) -> BridgeEntry:
+    """Return the entry of an argument, with its topics and types of ROS and Gazebo."""
+    ros, gz, ros_type, gz_type, way = (
+        Fact(text, place) for text in (*ends, _ARROWS[arrow])
+    )
+    return BridgeEntry(ros, gz, ros_type, gz_type, way, arrow)
 
 
 def entries_of_images(
@@ -174,11 +176,6 @@ def entries_of_images(
             # What comes after options is not a topic.
             return
         if _NAME.fullmatch(argument):
-            yield BridgeEntry(
-                Fact(names.get(bare(argument), argument), place),
-                Fact(argument, place),
-                Fact("sensor_msgs/msg/Image", place),
-                Fact("gz.msgs.Image", place),
-                Fact(_TO_ROS, place),
-                "[",
-            )
+            ros = names.get(bare(argument), argument)
+            ends = ros, argument, "sensor_msgs/msg/Image", "gz.msgs.Image"
+            yield _argument(place, ends, "[")

@@ -41,6 +41,7 @@ Shown = Sequence[tuple[str, DisplayTopic]]
 def unseen_topics(around: Surroundings) -> Iterator[Problem]:
     """Report displays that get nothing, and tools whose topic nothing reads."""
     published = list(published_topics(around))
+    sent = {topic.topic.value for topic in published}
     packages = {package.name: package for package in around.packages}
     done: set[Place] = set()
     for node in (*around.running.started, *_not_started(around)):
@@ -51,7 +52,6 @@ def unseen_topics(around: Surroundings) -> Iterator[Problem]:
             (whole_name(node, each.topic.value), each)
             for each in displays_of(node, packages.get)
         ]
-        sent = {topic.topic.value for topic in published}
         unsent = [t for t in topics if t[0] not in sent and not t[1].is_tool]
         yield from two_types(unsent)
         for whole, each in topics:

@@ -83,8 +83,10 @@ def unheard_commands(around: Surroundings) -> Iterator[Problem]:
                 if n.path == owner or (owner not in paths and _ends(e, last))
             }
             known = owner in paths or all(n.endpoints_known for n in beside)
+            if len(meant) != 1 or not known:
+                continue
             place = remapped_at(around, node)
-            if len(meant) == 1 and known and place not in done:
+            if place not in done:
                 done.add(place)
                 ((reader, read),) = meant.values()
                 yield Problem.at(

@@ -142,12 +142,14 @@ def _near_name(failed: FailedExpansion, name: str) -> str | Fix:
         if 1 in (len(each), len(name)) and each[0].lower() == name[0].lower()
     ]
     near = next(iter(alike), None) or nearest(name, [*things, *_BUILT_IN])
-    if near is None or _uses(failed)[near] or not is_one_slip(name, near):
+    used = _uses(failed)
+    if near is None or used[near] or not is_one_slip(name, near):
         # Half a rename leaves a property that nothing uses.
-        near = _unused(failed, name, set(things).difference(own)) or near
+        near = _unused(used, name, set(things).difference(own)) or near
     if near in things:
         where = line_in(things[near], failed.at)
-        if near not in own and _is_odd(failed, near, name):
+        # The name is used again and again, and the one defined never.
+        if near not in own and not used[near] and used[name] > 1:
             hint = f'write name="{name}" on {where}: {near} is used nowhere'
             return write_attribute(things[near], "name", near, name, hint=hint)
         return instead(near, f"did you mean {near} (defined on {where})?")
@@ -166,15 +168,9 @@ def _near_name(failed: FailedExpansion, name: str) -> str | Fix:
     )
 
 
-def _is_odd(failed: FailedExpansion, defined: str, name: str) -> bool:
-    """Return whether a name is used again and again, and the one defined never."""
-    used = _uses(failed)
-    return used[defined] == 0 and used[name] > 1
-
-
-def _unused(failed: FailedExpansion, name: str, properties: set[str]) -> str | None:
+def _unused(used: Counter[str], name: str, properties: set[str]) -> str | None:
     """Return the property without a use that alone has the most words of a name."""
-    used, words = _uses(failed), set(name.lower().split("_"))
+    words = set(name.lower().split("_"))
     shared = {
         each: len(words.intersection(each.lower().split("_")))
         for each in properties
