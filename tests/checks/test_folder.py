@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
+from manifests import written
 
 from sambot_viz.cli import main
 
@@ -32,16 +33,13 @@ Visualization Manager:
 
 @pytest.fixture
 def package(tmp_path: Path) -> Path:
-    folder = tmp_path / "my_bot"
-    for name, text in {
+    files = {
         "package.xml": "<package><name>my_bot</name></package>",
         "setup.py": "from setuptools import setup\nsetup(name='mybot')\n",
         "urdf/my_bot.urdf": MODEL,
         "rviz/my_bot.rviz": CONFIG,
-    }.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)
-    return folder
+    }
+    return written(tmp_path / "my_bot", files)
 
 
 def checked(folder: Path, capsys: pytest.CaptureFixture[str]) -> tuple[int, set[str]]:

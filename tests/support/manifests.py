@@ -1,6 +1,9 @@
-"""The package.xml of a package of a test: what colcon and rosdep ask for, no more."""
+"""A package of a test: its files, and what colcon and rosdep ask of package.xml."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
 
 
 def manifest(*dependencies: str) -> str:
@@ -15,3 +18,12 @@ def manifest(*dependencies: str) -> str:
   <license>MIT</license>
 {"".join(lines)}</package>
 """
+
+
+def written(folder: Path, files: Mapping[str, str]) -> Path:
+    """Write the files of a package, by their paths in it, and return its folder."""
+    for name, text in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return folder

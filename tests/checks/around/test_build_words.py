@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
+from manifests import written
 
 from sambot_viz.checks import check
 from sambot_viz.errors import Problem
@@ -137,20 +138,17 @@ SAID = [
 ]
 
 
-def written(folder: Path, files: dict[str, str]) -> Path:
-    """Write a package into a folder."""
-    for name, text in files.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)
-    (folder / "robot.urdf").write_text('<robot name="r"><link name="base"/></robot>')
-    return folder
+def package_of(folder: Path, files: dict[str, str]) -> Path:
+    """Write a package with a model into a folder."""
+    model = {"robot.urdf": '<robot name="r"><link name="base"/></robot>'}
+    return written(folder, files | model)
 
 
 def package_with(folder: Path, file: str, right: str, wrong: str) -> Path:
     """Write a package in which one text of a file is another."""
     files = dict(IN_PYTHON if file in (SETUP, CFG) else IN_CMAKE)
     assert right in files[file]
-    return written(folder, {**files, file: files[file].replace(right, wrong, 1)})
+    return package_of(folder, {**files, file: files[file].replace(right, wrong, 1)})
 
 
 def undone(package: Path, problem: Problem, file: str) -> list[Problem]:
@@ -162,7 +160,7 @@ def undone(package: Path, problem: Problem, file: str) -> list[Problem]:
 
 @pytest.mark.parametrize("files", [IN_CMAKE, IN_PYTHON])
 def test_a_right_package_has_no_problem(tmp_path: Path, files: dict[str, str]) -> None:
-    assert check(written(tmp_path / "robot", files)) == []
+    assert check(package_of(tmp_path / "robot", files)) == []
 
 
 @pytest.mark.parametrize(("file", "right", "wrong", "cause"), CASES)
@@ -176,7 +174,7 @@ def test_a_mistake_in_a_build_file_is_undone_by_its_edit(
 
 
 def test_the_name_of_a_variable_in_quotation_marks(tmp_path: Path) -> None:
-    package = written(tmp_path / "robot", IN_PYTHON)
+    package = package_of(tmp_path / "robot", IN_PYTHON)
     text = "package_name = 'robot'\n" + IN_PYTHON[SETUP].replace(
         "'share/robot/launch'", "'share/' + 'package_name' + '/launch'"
     )
@@ -187,7 +185,7 @@ def test_the_name_of_a_variable_in_quotation_marks(tmp_path: Path) -> None:
 
 
 def test_a_name_that_only_package_xml_has_is_the_wrong_one(tmp_path: Path) -> None:
-    package = written(tmp_path / "robot", IN_PYTHON)
+    package = package_of(tmp_path / "robot", IN_PYTHON)
     text = IN_PYTHON[MANIFEST].replace("<name>robot<", "<name>my-robot<")
     (package / MANIFEST).write_text(text)
     (problem,) = check(package)
@@ -276,7 +274,7 @@ def test_a_package_that_only_tests_find_is_not_found_before(tmp_path: Path) -> N
 
 
 def test_a_plugin_reads_parameters_that_the_package_has(tmp_path: Path) -> None:
-    package = written(tmp_path / "robot", IN_CMAKE)
+    package = package_of(tmp_path / "robot", IN_CMAKE)
     (package / "config").mkdir()
     (package / "config/controllers.yaml").write_text("a: {ros__parameters: {b: 1}}\n")
     text = IN_CMAKE[CMAKE].replace("DIRECTORY launch", "DIRECTORY launch config")

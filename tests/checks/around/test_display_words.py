@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
-from manifests import manifest
+from manifests import manifest, written
 
 from sambot_viz.checks import check
 from sambot_viz.checks.vocabulary import vocabulary
@@ -95,11 +95,7 @@ Visualization Manager:
 @pytest.fixture
 def package(tmp_path: Path) -> Path:
     """A right package with a config of RViz that no launch file names."""
-    for name, text in FILES.items():
-        path = tmp_path / "robot" / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-    return tmp_path / "robot"
+    return written(tmp_path / "robot", FILES)
 
 
 def test_a_view_follows_a_link_that_exists(package: Path) -> None:

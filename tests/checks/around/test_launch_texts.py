@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
-from manifests import manifest
+from manifests import manifest, written
 
 from sambot_viz.checks import check
 
@@ -57,11 +57,7 @@ MODE = "PythonExpression([\"'\", LaunchConfiguration('mode'), \"' == 'slam'\"])"
 @pytest.fixture
 def package(tmp_path: Path) -> Path:
     """A package with right launch files in each form."""
-    folder = tmp_path / "robot"
-    for name, text in FILES.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)
-    return folder
+    return written(tmp_path / "robot", FILES)
 
 
 def test_right_texts_have_no_problem(package: Path) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
+from manifests import written
 
 from sambot_viz.checks import check
 from sambot_viz.errors import Problem
@@ -186,10 +187,7 @@ UNSURE = [
 @pytest.fixture
 def package(tmp_path: Path) -> Path:
     """A right package with a launch file of each form."""
-    folder = tmp_path / "robot"
-    for name, text in FILES.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)
+    folder = written(tmp_path / "robot", FILES)
     (folder / "robot.urdf").write_text('<robot name="r"><link name="base"/></robot>')
     return folder
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
-from manifests import manifest
+from manifests import manifest, written
 
 from sambot_viz.checks import check
 from sambot_viz.errors import Problem
@@ -66,11 +66,7 @@ free_thresh: 0.25
 @pytest.fixture
 def package(tmp_path: Path) -> Path:
     """A right package with parameters and a map."""
-    for name, text in FILES.items():
-        path = tmp_path / "robot" / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-    return tmp_path / "robot"
+    return written(tmp_path / "robot", FILES)
 
 
 def problems(package: Path) -> list[Problem]:

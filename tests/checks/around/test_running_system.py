@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from manifests import written
 
 from sambot_viz.checks.around.running import RunningNode, RunningSystem, running_system
 
@@ -34,10 +35,7 @@ def packages(tmp_path: Path) -> Packages:
 
     def write(**files: dict[str, str]) -> Path:
         for name, texts in files.items():
-            for path, text in {"package.xml": MANIFEST.format(name), **texts}.items():
-                file = tmp_path / name / path
-                file.parent.mkdir(parents=True, exist_ok=True)
-                file.write_text(text, "utf-8")
+            written(tmp_path / name, {"package.xml": MANIFEST.format(name), **texts})
         return tmp_path / next(iter(files))
 
     return write

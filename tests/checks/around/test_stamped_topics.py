@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
-from manifests import manifest
+from manifests import manifest, written
 
 from sambot_viz.checks import check
 
@@ -67,11 +67,7 @@ SWITCH = "    use_stamped: true\n"
 @pytest.fixture
 def package(tmp_path: Path) -> Path:
     """A package whose commands have a time stamp at all ends."""
-    for name, text in FILES.items():
-        path = tmp_path / "robot" / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-    return tmp_path / "robot"
+    return written(tmp_path / "robot", FILES)
 
 
 def findings(package: Path) -> list[str]:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from edited import edited_files
+from manifests import written
 
 from sambot_viz.checks import check
 
@@ -60,11 +61,7 @@ def generate_launch_description():
 @pytest.fixture
 def world(tmp_path: Path) -> Path:
     """The world of a right package."""
-    for name, text in FILES.items():
-        path = tmp_path / "room" / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-    return tmp_path / "room" / WORLD
+    return written(tmp_path / "room", FILES) / WORLD
 
 
 def problems(world: Path) -> list[tuple[str, str, int | None]]:
