@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from sambot_viz.edits import source_of
 from sambot_viz.errors import Fix, Place
 from sambot_viz.robot.parts import Joint
+from sambot_viz.robot.slips.twin_names import RIGHT
 from sambot_viz.robot.xacro.macro_texts import (
     CallText,
     Written,
@@ -21,7 +22,6 @@ _PART = re.compile(r"(?:\$\{[^}]*\}|[^\s$])+")
 _SUM = re.compile(r"[^-+*/(e]\s*[-+]")
 _ZERO = re.compile(r"[+-]?0*(?:\.0*)?")
 _SIGN = re.compile(r"[+-]?1(?:\.0*)?")
-_RIGHT = re.compile(r"right|(?<![a-z])[fbrm]?r[fbr]?(?![a-z])", re.IGNORECASE)
 
 
 def other_side(
@@ -133,7 +133,7 @@ def lost_bracket(
 
 
 def _is_right(joint: Joint) -> bool:
-    return _RIGHT.search(f"{joint.name} {joint.child}".replace("_", " ")) is not None
+    return RIGHT.search(f"{joint.name} {joint.child}") is not None
 
 
 def _call_of(joint: Joint, calls: Sequence[CallText]) -> CallText | None:

@@ -16,10 +16,10 @@ from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.geometry import Vector3, dot
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Cylinder, Joint, Shape, Sphere
+from sambot_viz.robot.slips.twin_names import LEFT
 from sambot_viz.robot.slips.wheel_names import WHEEL
 
-_LEFT = re.compile(r"left|(?<![a-z])[fbrm]?l[fbr]?(?![a-z])", re.IGNORECASE)
-_RIGHT = (("left", "right"), ("Left", "Right"), ("l(?!eft)", "r"), ("L(?!eft)", "R"))
+_TO_RIGHT = (("left", "right"), ("Left", "Right"), ("l(?!eft)", "r"), ("L(?!eft)", "R"))
 """Left → right: words in the names of twins."""
 _CODE = "wheel-unlike-twin"
 _OFF = 0.02
@@ -63,11 +63,11 @@ def unlike_twins(subject: Subject) -> Iterator[Problem]:
 
 def _pairs(robot: Robot) -> Iterator[_Twins]:
     for left in robot.joints.values():
-        pattern = _LEFT.search(left.name)
+        pattern = LEFT.search(left.name)
         if pattern is None or not _is_wheel(left):
             continue
         before, after = left.name[: pattern.start()], left.name[pattern.end() :]
-        sides = (re.sub(*pair, pattern[0]) for pair in _RIGHT)
+        sides = (re.sub(*pair, pattern[0]) for pair in _TO_RIGHT)
         names = [before + side + after for side in sides if side != pattern[0]]
         right = next((robot.joints[n] for n in names if n in robot.joints), left)
         if right is left or not _is_wheel(right) or right.parent != left.parent:

@@ -12,6 +12,9 @@ _SIDES = (
     {"first", "second", "third"},
 )
 """Words of which the names of two similar parts have one each."""
+LEFT = re.compile(r"left|(?<![a-z])[fbrm]?l[fbr]?(?![a-z])", re.IGNORECASE)
+RIGHT = re.compile(r"right|(?<![a-z])[fbrm]?r[fbr]?(?![a-z])", re.IGNORECASE)
+"""What means a side in the name of a part."""
 _PIECE = re.compile(r"[A-Za-z]+|\d+|[^A-Za-z\d]+")
 
 
