@@ -90,6 +90,7 @@ class TextLoader:
         state = wanted()
         self._shown = self._of_model(state.files.model, state.texts)
         self._loaded = state._replace(texts=self._shown)
+        self._tried = state
         self._result: _Result | None = None
         self._forgotten = 0
 
@@ -165,7 +166,7 @@ class TextLoader:
     def _load_newest(self) -> None:
         try:
             with self._change.lock:
-                state = self._wanted()
+                self._tried = state = self._wanted()
                 texts = self._of_model(state.files.model, state.texts)
                 state = state._replace(texts=texts)
                 if self._closed or _of_robot(state) == _of_robot(self._loaded):
@@ -205,9 +206,10 @@ class TextLoader:
     def _check(self) -> None:
         with self._change.lock:
             state = self._wanted()
-            of_model = self._of_model(state.files.model, state.texts)
-            if self._closed:
+            # A text that came after the load is checked after its own.
+            if self._closed or _of_robot(state) != _of_robot(self._tried):
                 return
+            of_model = self._of_model(state.files.model, state.texts)
             around = {f: t for f, t in state.texts.items() if f not in of_model}
             self._checks.texts = {**around, **self._shown}
         try:
