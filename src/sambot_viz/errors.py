@@ -341,6 +341,13 @@ def _nearest(name: str, names: tuple[str, ...], likeness: float) -> str | None:
     return near[0] if near else None
 
 
+def hint_sentence(hint: str) -> str:
+    """Return the hint of a problem as a sentence of its own; empty without one."""
+    if hint.startswith("did you mean "):
+        return hint[0].upper() + hint[1:]
+    return f"To fix it: {hint}" if hint else ""
+
+
 def did_you_mean(
     name: str, names: Iterable[str], part: Callable[[str], str] = str
 ) -> str:

@@ -19,11 +19,21 @@ if TYPE_CHECKING:
     from sambot_viz.frames.static_transform import StaticTransform
 
 Group = Literal[
-    "model", "check", "source", "pose", "view", "compare", "server", "listen", "counts"
+    "model",
+    "check",
+    "source",
+    "config",
+    "pose",
+    "view",
+    "compare",
+    "server",
+    "listen",
+    "counts",
 ]
 """Groups of options for the same commands: all with a MODEL, those that check it, read
-recordings and live robots, pose the robot, draw it, or draw another one beside it, the
-one that serves a robot's page, those that serve any page, and those that count."""
+recordings and live robots, read a .rviz file, pose the robot, draw it, or draw another
+one beside it, the one that serves a robot's page, those that serve any page, and those
+that count."""
 AGAIN = "; may be given several times"
 
 SHORTEST_TOKEN = 8

@@ -101,7 +101,7 @@ class Options:
         "one",
         "-d",
         "--display-config",
-        group="view",
+        group="config",
         word="rvizconfig",
         metavar="FILE",
     )

@@ -102,3 +102,23 @@ def test_a_file_that_is_no_model_is_checked_with_its_package(
     text = capsys.readouterr().out
     assert f"{elsewhere} more finding" in text
     assert text.endswith("sambot-viz check .\n")
+
+
+def test_a_config_that_is_given_is_checked_against_the_robot(
+    package: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    config = tmp_path / "other.rviz"
+    config.write_text(CONFIG.replace("RobotModel\n      E", "RobotModl\n      E"))
+    model = str(package / "urdf/my_bot.urdf")
+    main(["check", model, "-d", str(config), "--format", "json"])
+    found = json.loads(capsys.readouterr().out)["problems"]
+    of_config = {p["code"]: p["edits"] for p in found if p["file"] == str(config)}
+    assert of_config.keys() >= {"config-class", "setup-fixed-frame"}
+    ((edit,),) = (of_config["setup-fixed-frame"],)
+    assert edit["text"] == "base_link"
+    # The package's own is checked too; one that is given is not checked twice.
+    main(["check", model, "-d", str(package / "rviz/my_bot.rviz"), "--format", "json"])
+    found = json.loads(capsys.readouterr().out)["problems"]
+    assert [p["code"] for p in found].count("setup-fixed-frame") == 1
+    main(["check", model, "-d", str(config), "--fix", "--yes"])
+    assert "Fixed Frame: base_link" in config.read_text()

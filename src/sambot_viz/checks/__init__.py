@@ -28,6 +28,7 @@ __all__ = ["check", "check_around", "check_robot"]
 def check(
     path: str | os.PathLike[str],
     *,
+    config: str | os.PathLike[str] | None = None,
     xacro_args: Mapping[str, str] | None = None,
     package_path: Sequence[Path | str] = (),
     workspace: Sequence[Path | str] = (),
@@ -37,6 +38,7 @@ def check(
 
     Args:
         path: a URDF, SDF or xacro file, a package folder, or a folder of packages.
+        config: the .rviz file to show the model with, checked against it.
         xacro_args: values for xacro's arguments.
         package_path: folders to search for packages.
         workspace: folders of packages that start the robot or have its parameters.
@@ -51,6 +53,7 @@ def check(
     try:
         found = check_all(
             Path(path),
+            config=None if config is None else Path(config),
             xacro_args=xacro_args,
             package_path=package_path,
             workspace=workspace,

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.advice import with_edits
-from sambot_viz.bundled import config_in
 from sambot_viz.checks.copied_names import with_missing_names
 from sambot_viz.checks.file_of_package import package_of_other
 from sambot_viz.checks.launched_models import launched, load_launched, wrong_variants
@@ -23,16 +22,19 @@ from sambot_viz.checks.model_rules import (
     with_proven_edits,
     without_followers,
 )
+from sambot_viz.checks.package_configs import (
+    problems_of_configs,
+    problems_without_robot,
+)
 from sambot_viz.checks.proven import lasting
 from sambot_viz.checks.targets import CheckedModel, find_targets
 from sambot_viz.checks.with_packages import Loaded, alone, proven_of_packages
-from sambot_viz.errors import ConfigError, Problem, RobotError
-from sambot_viz.files import each_file_once, is_below
+from sambot_viz.errors import Problem, RobotError
+from sambot_viz.files import each_file_once
 from sambot_viz.robot.model import Robot, load_robot
 from sambot_viz.robot.packages.package_index import package_around
 
 if TYPE_CHECKING:
-    from sambot_viz.checks.around.surroundings import Surroundings
     from sambot_viz.checks.around.workspace import Package
     from sambot_viz.checks.rule import Subject
 
@@ -58,6 +60,7 @@ class Checked:
 def check_all(
     path: Path,
     *,
+    config: Path | None = None,
     xacro_args: Mapping[str, str] | None = None,
     package_path: Sequence[Path | str] = (),
     workspace: Sequence[Path | str] = (),
@@ -72,6 +75,7 @@ def check_all(
     if package is not None:
         whole = check_all(
             package,
+            config=config,
             xacro_args=xacro_args,
             package_path=package_path,
             workspace=workspace,
@@ -98,14 +102,14 @@ def check_all(
         problems += wrong_variants(load, target, variants[1:], given, of_model)
         seen = look(AROUND, subject)
         around = without_followers(subject, AROUND, seen)
-        configs = with_edits(_of_configs(target, robot))
+        configs = with_edits(problems_of_configs(target, robot, config))
         loaded.append(
             Loaded(target, subject, tuple(around), tuple(seen), tuple(configs))
         )
     problems += proven_of_packages(targets, loaded)
     for package in alone(targets, loaded):
-        for config in (None, *_others(package)):
-            problems += with_edits(_of_config(package, path=config))
+        for found in problems_without_robot(package):
+            problems += with_edits(found)
     return Checked(targets.models, tuple(in_order(problems)))
 
 
@@ -177,102 +181,3 @@ def _of_files(subject: Subject) -> list[Problem]:
     )
 
     return without_installed(subject.robot.problems, subject)
-
-
-def _of_configs(target: CheckedModel, robot: Robot) -> list[Problem]:
-    """Return the problems of the .rviz files of a model, if they are for it."""
-    if not target.is_main or not target.packages:
-        return []
-    # Import late: many models have no package.
-    from sambot_viz.checks.around.surroundings import Surroundings
-
-    around = Surroundings(robot, target.packages)
-    found = [p for each in target.packages for p in _of_config(each, around)]
-    for package in target.packages:
-        opened = _opened(package)
-        for path in _others(package):
-            of_file = _of_config(package, around, path, is_opened=path in opened)
-            found += [p for p in of_file if p.code not in _OF_FIRST]
-    return found
-
-
-_OF_FIRST = frozenset(
-    """
-    config-class setup-description-topic setup-description-volatile
-    setup-no-robot-model
-    """.split()
-)
-"""Codes for the first .rviz file of a package only, or from another rule."""
-
-
-def _others(package: Package) -> list[Path]:
-    """Return the .rviz files of a package except its first."""
-    first = config_in(package.folder)
-    files = [package.folder / path for path in package.ending(".rviz")]
-    return [file for file in files if file != first]
-
-
-def _opened(package: Package) -> list[Path]:
-    """Return the other .rviz files of a package that its launch files open."""
-    said = [text for launch in package.launches for text in launch.strings]
-    for root in package.frontends:
-        said += [v for e in root.iter() for v in e.attributes.values()]
-    others = _others(package)
-    return [each for each in others if any(text.endswith(each.name) for text in said)]
-
-
-def _of_config(
-    package: Package,
-    around: Surroundings | None = None,
-    path: Path | None = None,
-    *,
-    is_opened: bool = True,
-) -> list[Problem]:
-    """Return the problems of a .rviz file of a package, by default its first.
-
-    One that no launch file opens may be for another robot.
-    """
-    from sambot_viz.checks.around.frames.published import may_be_published
-    from sambot_viz.checks.around.workspace import shown
-    from sambot_viz.checks.config_against_robot import (
-        check_config,
-        description_topics,
-        lists_links,
-        moveit_draws_robot,
-        unknown_references,
-    )
-    from sambot_viz.rviz import Declarations, RvizConfig
-
-    path = path or config_in(package.folder)
-    if path is None or not (package.trusted or is_below(path, [package.folder])):
-        return []
-    package.read.add(path)
-    try:
-        config = RvizConfig.load(Path(shown(path, package.relative)), Declarations())
-    except ConfigError as error:
-        return list(error.problems)
-    found = list(config.problems)
-    if around is None:
-        return found
-    frame = str(config.global_options.get("Fixed Frame"))
-    is_guess = not is_opened
-    checked = check_config(around.robot, config)
-    excuses = {
-        "setup-fixed-frame": lambda: (
-            may_be_published(around, frame)
-            or (is_guess and not lists_links(around.robot, config))
-        ),
-        "setup-no-robot-model": lambda: moveit_draws_robot(config),
-        "setup-description-topic": lambda: all(
-            any(end.publishes for _, end in around.running.endpoints(topic))
-            for topic in description_topics(config)
-        ),
-    }
-    if not is_guess or lists_links(around.robot, config):
-        is_published = partial(may_be_published, around)
-        checked += unknown_references(around.robot, config, is_published)
-    return found + [
-        replace(problem, severity="info") if is_guess else problem
-        for problem in checked
-        if problem.code not in excuses or not excuses[problem.code]()
-    ]

@@ -13,7 +13,7 @@ from sambot_viz.bundled import is_bundled
 from sambot_viz.checks.around.running.known import known_nodes
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
-from sambot_viz.errors import Fix, Place, Problem, did_you_mean, nearest
+from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import QOS_PROPERTIES
 from sambot_viz.rviz.declarations import is_ros1, kind_of
@@ -216,14 +216,13 @@ def _fixed_frame(robot: Robot, config: RvizConfig) -> Iterator[Problem]:
     misspelt = "Fixed Frame" not in said and nearest("Fixed Frame", said, _LIKENESS)
     if not frame or frame in robot.links or misspelt:
         return
-    near = did_you_mean(frame, robot.links)
-    better = f"{near}; " if near.startswith("did you mean") else ""
+    near = nearest(frame, robot.links)
     place = _place(config.file, config.global_options.node.get("Fixed Frame"))
-    hint: str | Fix = f"{better}choose {robot.root}, the root of this robot"
+    hint: str | Fix = (
+        f"write {near}" if near else f"choose {robot.root}, the root of this robot"
+    )
     if frame not in _OF_THE_WORLD and isinstance(place, Place):
-        hint = write(
-            place, written, nearest(frame, robot.links) or robot.root, hint=hint
-        )
+        hint = write(place, written, near or robot.root, hint=hint)
     yield Problem.at(
         place,
         "warning",

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz import bundled
-from sambot_viz.commands.command_line import Parser, model_path, parse
+from sambot_viz.commands.command_line import Parser, config_path, model_path, parse
 from sambot_viz.errors import Problem, UsageError
 from sambot_viz.files import each_file_once, relative_path
 from sambot_viz.options import Options
@@ -37,7 +37,7 @@ def run(words: list[str]) -> int:
     # The import is late: completion and --help need no rules.
     from sambot_viz.checks.checked import check_all
 
-    path = model_path(options)
+    path, config = model_path(options), config_path(options)
     if path is None:
         path = bundled.model_path()
     elif not os.path.exists(path):
@@ -45,6 +45,7 @@ def run(words: list[str]) -> int:
     check = partial(
         check_all,
         path,
+        config=config,
         xacro_args=options.xacro_args,
         package_path=options.package_path,
         workspace=options.workspace,
@@ -52,7 +53,8 @@ def run(words: list[str]) -> int:
     )
     if given.fix:
         found = check()
-        found = replace(found, problems=_fix(path, found, check, given))
+        own = () if config is None else (config.absolute(),)
+        found = replace(found, problems=_fix(path, found, check, given, own))
         _print(path, found, given.format)
     else:
         with each_file_once():
@@ -62,14 +64,27 @@ def run(words: list[str]) -> int:
 
 
 def _fix(
-    path: Path, found: Checked, check: Callable[[], Checked], given: argparse.Namespace
+    path: Path,
+    found: Checked,
+    check: Callable[[], Checked],
+    given: argparse.Namespace,
+    own: tuple[Path, ...],
 ) -> tuple[Problem, ...]:
-    """Apply the edits that are wanted; returns the problems that are left."""
+    """Apply the edits that are wanted; returns the problems that are left.
+
+    Args:
+        path: the model, or a folder.
+        found: what is wrong with it.
+        check: finds it again.
+        given: the flags of the command.
+        own: files that may be changed wherever they are.
+    """
     from sambot_viz.commands.fix import Fixing, folders_of
 
     folder = path if path.is_dir() else None
     models = [one.model for one in found.models] or [path]
     folders = [one for model in models for one in folders_of(model, folder)]
+    folders += own
     known = [found]
 
     def find_problems() -> list[Problem]:
@@ -116,7 +131,7 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz check",
-        groups=("model", "check"),
+        groups=("model", "check", "config"),
         model="model file, package folder, folder of packages, or a file of a package",
         description="List what is wrong with a model and its mesh files, where, and "
         "how to fix it, and with its package: names that differ between it and other "

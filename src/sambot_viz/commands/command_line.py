@@ -234,6 +234,11 @@ def model_path(options: Options) -> Path | None:
     return Path(str(options.model)) if options.model is not None else None
 
 
+def config_path(options: Options) -> Path | None:
+    """Return the .rviz file of a command line, if there is one."""
+    return Path(str(options.config)) if options.config is not None else None
+
+
 def output_path(text: str, what: str, *endings: str) -> Path:
     """Return the file of ``-o``.
 

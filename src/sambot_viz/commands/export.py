@@ -66,7 +66,7 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz export",
-        groups=("model", "source", "view", "pose"),
+        groups=("model", "source", "config", "view", "pose"),
         description="Write the 3D view with a motion of the robot as one HTML file, "
         "which any browser opens from a disk, without a server and without a network. "
         "Exit status: 0 written, 1 errors found, 2 usage.",

@@ -195,6 +195,7 @@ def parser() -> Parser:
             "model",
             "check",
             "source",
+            "config",
             "view",
             "compare",
             "pose",

@@ -77,7 +77,7 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz snapshot",
-        groups=("model", "source", "view", "compare", "pose"),
+        groups=("model", "source", "config", "view", "compare", "pose"),
         description="Write a PNG of the 3D view alone, drawn by a Chromium or Chrome "
         "of this machine. Exit status: 0 written, 1 errors found, 2 usage.",
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 
+from sambot_viz.errors import hint_sentence
 from sambot_viz.graph.node_graph import (
     GraphEdge,
     GraphNode,
@@ -80,7 +81,7 @@ def said_of(
     if one.problem is not None:
         yield text(f"{one.problem.severity}: {one.problem.message}")
         if one.problem.hint:
-            yield text(f"To fix it: {one.problem.hint}")
+            yield text(hint_sentence(one.problem.hint))
 
 
 def _said_of_node(node: GraphNode) -> Iterator[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 
 from sambot_viz.edits import Extent, SourceFile
-from sambot_viz.errors import Edit, Place, Problem
+from sambot_viz.errors import Edit, Place, Problem, hint_sentence
 from sambot_viz.panels.problems.problems_panel import without_folders
 from sambot_viz.panels.rows.row import Json
 from sambot_viz.session.editor.file_text import to_units
@@ -23,8 +23,7 @@ def marked(
         can_fix: whether its edits can be made.
     """
     start, end = _extent(problem, source)
-    words = problem.message
-    hint = f"To fix it: {problem.hint}" if problem.hint else ""
+    words, hint = problem.message, hint_sentence(problem.hint)
     if not folders:
         words, hint = (str(without_folders(said)) for said in (words, hint))
     return {

@@ -12,7 +12,14 @@ from pathlib import Path, PurePath
 from typing import NamedTuple, cast
 
 from sambot_viz import limits
-from sambot_viz.errors import SEVERITIES, Edit, Problem, Severity, UsageError
+from sambot_viz.errors import (
+    SEVERITIES,
+    Edit,
+    Problem,
+    Severity,
+    UsageError,
+    hint_sentence,
+)
 from sambot_viz.fixes import EditRefused
 from sambot_viz.panels.command import TEXT, Command, command
 from sambot_viz.panels.panel import Panel
@@ -221,7 +228,7 @@ class ProblemsPanel(Panel):
             parent,
             "note",
             "the fix",
-            f"To fix it: {hint}",
+            hint_sentence(hint),
             extra=extra,
         )
 

@@ -43,6 +43,7 @@ _WORDS = (
     (re.compile(r"write (\$\(optenv [^)]+\))$"), "$({})"),
     (re.compile(r"write (\$\(find [^)]+\)\S*)$"), "$({})"),
     (re.compile(r"did you mean '([\w.-]+)'\? If not"), "{}"),
+    (re.compile(r"write ([\w-]+), or add "), "{}"),
     (re.compile(r"write (\$[{(][^)}]*[)}])(?=;|$)"), "$({})"),
 )
 """Hint that says a word → the word that it is written for."""
@@ -279,7 +280,10 @@ class FailedExpansion:
             if source is not None:
                 names = re.findall(r"(?m)^\s*(?:- )?([\w-]+)\s*:", source.text)
                 keys.update(dict.fromkeys(names))
-        return f"{did_you_mean(self.found[0], keys)}; or add it to the file"
+        wrong, near = self.found[0], nearest(self.found[0], keys)
+        if near is None:
+            return f"{did_you_mean(wrong, keys)}; or add it to the file"
+        return f"write {near}, or add {wrong} to the file"
 
     @property
     def ring(self) -> str:
