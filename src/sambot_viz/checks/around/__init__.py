@@ -56,7 +56,8 @@ def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
         from sambot_viz.checks.around.surroundings import Surroundings
 
         around = Surroundings(robot, packages)
-        yield from of_this_robot(around, _found((*OF_FILES, *OF_ROBOT), around))
+        found = (*_found(OF_FILES, around), *_found(OF_ROBOT, around.of_robot))
+        yield from of_this_robot(around, found)
 
 
 def wrong_files(package: Package) -> Iterator[Problem]:

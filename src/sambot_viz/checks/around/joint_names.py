@@ -52,10 +52,11 @@ def joints_of_controllers(around: Surroundings) -> Iterator[Problem]:
             }
             side = side_in(parameter.name)
             user = _User(parameter.node, True, side, frozenset(taken))
+            is_own = parameter.place.file in around.ownership.own
             named = [
                 (Fact(joint, parameter.place), user)
                 for joint in parameter.values
-                if not around.said_elsewhere(joint)
+                if is_own or not around.said_elsewhere(joint)
             ]
             yield from _unknown_joints(around.robot, named)
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import PurePosixPath
 
 from sambot_viz.checks.around.files.parameters import YamlFile
+from sambot_viz.checks.around.ownership import MODELS
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.checks.clues import severity
@@ -28,7 +29,6 @@ _OF_ROBOT = {
 """Code → the parameters whose values only one robot has."""
 _SIZES = frozenset({"footprint-size", "drive-wheel-separation", "drive-wheel-radius"})
 """Codes of findings about numbers that two robots may share by chance."""
-_MODELS = (".urdf", ".xacro", ".sdf")
 _Model = tuple[Package, str]
 _IS_ROBOT = re.compile(r"<(robot|model)\b[^>]*\bname\s*=")
 _GENERAL = frozenset(
@@ -48,7 +48,8 @@ def of_this_robot(
 ) -> Iterator[Problem]:
     """Leave out findings in parameter files that may be for another robot.
 
-    A file belongs to another robot when its name or a folder in its path is the name of
+    Where neither a model nor a launch file says whose a file is, the names do: it
+    belongs to another robot when its name or a folder in its path is the name of
     another model of the package. It may do so when the parameters of another file fit
     this robot. In all other cases, different sizes are only one clue.
     """
@@ -66,7 +67,8 @@ def of_this_robot(
     for problem in found:
         # A name that one edit corrects is of this robot.
         is_slip = problem.code == "control-interface" and problem.edits
-        names = None if is_slip else _OF_ROBOT.get(problem.code)
+        is_certain = is_slip or problem.file in around.ownership.own
+        names = None if is_certain else _OF_ROBOT.get(problem.code)
         if names and problem.file in read:
             fitting = (f for f in ours if (problem.code, f.shown) not in wrong)
             is_ours = any(problem.file == file.shown for file in ours)
@@ -84,7 +86,7 @@ def _has(file: YamlFile, names: tuple[str, ...]) -> bool:
 
 def _models(around: Surroundings) -> Iterator[_Model]:
     for package in around.packages:
-        for path in package.ending(*_MODELS):
+        for path in package.ending(*MODELS):
             yield package, path
 
 

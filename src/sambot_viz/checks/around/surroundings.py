@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from sambot_viz.cached import cached_property
@@ -13,6 +13,7 @@ from sambot_viz.checks.around.files.gazebo import Plugin, plugins
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
+from sambot_viz.checks.around.ownership import Ownership, ownership
 from sambot_viz.checks.around.running.assemble import system_of
 from sambot_viz.checks.around.running.bridge_entries import BridgeEntry
 from sambot_viz.checks.around.running.endpoints import entries_of
@@ -39,10 +40,12 @@ class Surroundings:
     Attributes:
         known: the robot; None for packages without one.
         packages: first the model's, then those that start it or have its parameters.
+        left_out: parameter files and launch files of other robots.
     """
 
     known: Robot | None
     packages: tuple[Package, ...]
+    left_out: frozenset[str] = frozenset()
 
     @property
     def robot(self) -> Robot:
@@ -62,6 +65,19 @@ class Surroundings:
         return self.packages[0]
 
     @cached_property
+    def ownership(self) -> Ownership:
+        """The files that belong to this robot, or to others of the packages."""
+        if self.known is None:
+            return Ownership()
+        return ownership(self.known, self.packages)
+
+    @cached_property
+    def of_robot(self) -> Surroundings:
+        """The robot with the files that belong to it, or may."""
+        foreign = self.ownership.foreign - self.left_out
+        return replace(self, left_out=self.ownership.foreign) if foreign else self
+
+    @cached_property
     def plugins(self) -> tuple[Plugin, ...]:
         """The Gazebo plugins of the model."""
         return tuple(plugins(self.known.gazebo if self.known is not None else ()))
@@ -69,15 +85,27 @@ class Surroundings:
     @cached_property
     def launches(self) -> tuple[LaunchFile, ...]:
         """The Python launch files."""
-        return tuple(file for each in self.packages for file in each.launches)
+        files = (file for each in self.packages for file in each.launches)
+        return tuple(file for file in files if file.shown not in self.left_out)
 
     @cached_property
     def running(self) -> RunningSystem:
         """The system that the launch files start."""
         packages = {package.name: package for package in self.packages}
-        files = [(each, path) for each in self.packages for path in each.launch_paths]
+        files = [
+            (each, path)
+            for each in self.packages
+            for path in each.launch_paths
+            if each.shown(path) not in self.left_out
+        ]
         parts = self.known.gazebo if self.known is not None else ()
-        return system_of(files, self.packages, packages.get, simulated=simulated(parts))
+        return system_of(
+            files,
+            self.packages,
+            packages.get,
+            simulated=simulated(parts),
+            left_out=self.left_out,
+        )
 
     @cached_property
     def bridged(self) -> tuple[BridgeEntry, ...]:
@@ -100,12 +128,14 @@ class Surroundings:
         """Yield the Python launch files with their texts."""
         for package in self.packages:
             for launch in package.launches:
-                yield launch, package.text(launch.path) or ""
+                if launch.shown not in self.left_out:
+                    yield launch, package.text(launch.path) or ""
 
     @cached_property
     def yaml_files(self) -> tuple[YamlFile, ...]:
         """The YAML files."""
-        return tuple(file for each in self.packages for file in each.yaml_files)
+        files = (file for each in self.packages for file in each.yaml_files)
+        return tuple(file for file in files if file.shown not in self.left_out)
 
     @cached_property
     def parameters(self) -> tuple[Parameter, ...]:

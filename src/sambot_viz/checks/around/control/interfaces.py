@@ -62,7 +62,9 @@ def unfit_interfaces(around: Surroundings) -> Iterator[Problem]:
     single |= {
         need.controller
         for need in needs
-        if need.joint.value not in joints and declared[need.controller].name == "type"
+        if need.joint.value not in joints
+        and declared[need.controller].name == "type"
+        and need.joint.place.file not in around.ownership.own
     }
     for need in needs:
         if need.controller in single:
@@ -110,10 +112,12 @@ def _needs(around: Surroundings) -> Iterator[_NeededInterface]:
         for fact in plugin.all("parameters")
     }
     for name, kind in declared_controllers(around).items():
-        if of_model and posixpath.basename(kind.place.file) not in of_model:
+        named, is_own = kind.place.file, kind.place.file in around.ownership.own
+        if of_model and posixpath.basename(named) not in of_model and not is_own:
             # Another robot of the package has these.
             continue
-        if not of_model and kind.name == "type" and _has_other_robots(around):
+        several = kind.name == "type" and not of_model and not is_own
+        if several and _has_other_robots(around):
             # Any of the robots may have a controller with a section of its own.
             continue
         file = next(f for f in around.yaml_files if f.shown == kind.place.file)

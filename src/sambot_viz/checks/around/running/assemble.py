@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from sambot_viz.checks.around.files.launch_values import SHARE
-from sambot_viz.checks.around.files.parameters import controller_types
+from sambot_viz.checks.around.files.parameters import YamlFile, controller_types
 from sambot_viz.checks.around.running.bridge_entries import entries_of_file
 from sambot_viz.checks.around.running.endpoints import with_endpoints
 from sambot_viz.checks.around.running.evaluation import LaunchEvaluation
@@ -33,6 +33,7 @@ def system_of(
     simulated: Iterable[RunningNode] = (),
     arguments: Mapping[str, str] | None = None,
     displays: bool = False,
+    left_out: Collection[str] = (),
 ) -> RunningSystem:
     """Return the system that launch files start.
 
@@ -47,6 +48,7 @@ def system_of(
         simulated: the sensors and plugins that Gazebo runs for a robot.
         arguments: of the command line, for each of the launch files.
         displays: read the configs of RViz for the topics of its displays.
+        left_out: parameter files of other robots.
     """
     followed: dict[tuple[Package, str], LaunchEvaluation] = {}
     for package, path in files:
@@ -60,8 +62,14 @@ def system_of(
     for root in roots:
         nodes += followed[root].nodes
         unknown += followed[root].unknown
-    nodes += _controllers(nodes, packages)
-    nodes += _by_hand(nodes, packages)
+    read = [
+        (each, file)
+        for each in packages
+        for file in each.yaml_files
+        if file.shown not in left_out
+    ]
+    nodes += _controllers(nodes, [file for _, file in read])
+    nodes += _by_hand(nodes, read)
     nodes += simulated
     return RunningSystem(
         tuple(package.shown(path) for package, path in roots),
@@ -74,10 +82,9 @@ def system_of(
 
 
 def _controllers(
-    nodes: Iterable[RunningNode], packages: Sequence[Package]
+    nodes: Iterable[RunningNode], files: Sequence[YamlFile]
 ) -> Iterator[RunningNode]:
     """Yield the controllers that spawners start."""
-    files = [file for package in packages for file in package.yaml_files]
     types = controller_types(files)
     for node in nodes:
         known = known_nodes().nodes.get((node.package, node.executable))
@@ -97,32 +104,31 @@ def _controllers(
 
 
 def _by_hand(
-    nodes: Sequence[RunningNode], packages: Sequence[Package]
+    nodes: Sequence[RunningNode], files: Iterable[tuple[Package, YamlFile]]
 ) -> Iterator[RunningNode]:
     """Yield nodes and bridges with parameters that no launch file gives them."""
     started = {node.name: node for node in nodes}
     served = {n.name for n in nodes if any(each.given_at for each in n.parameters)}
     named = {each.value for node in nodes for each in node.parameters}
-    for package in packages:
-        for file in package.yaml_files:
-            for key, place in file.keys.items():
-                above, _, name = key.strip("/").rpartition("/")
-                known = known_nodes().names.get(name)
-                if known is None or name in served:
-                    continue
-                space = "/" if "*" in above else f"/{above}"
-                given = tuple(parameters_for(file, name, space))
-                node = started.get(name)
-                if node is None:
-                    yield _alone(known, name, space, given, place)
-                elif node.starts != "no":
-                    yield replace(node, starts="unknown", parameters=given)
-            path = f"{SHARE}{package.name}/{file.path}"
-            if path not in named and any(entries_of_file(file)):
-                place = Place(file.shown, 1)
-                config = GivenParameter("config_file", (path,), place)
-                known = known_nodes().names["ros_gz_bridge"]
-                yield _alone(known, known.name, "/", (config,), place)
+    for package, file in files:
+        for key, place in file.keys.items():
+            above, _, name = key.strip("/").rpartition("/")
+            known = known_nodes().names.get(name)
+            if known is None or name in served:
+                continue
+            space = "/" if "*" in above else f"/{above}"
+            given = tuple(parameters_for(file, name, space))
+            node = started.get(name)
+            if node is None:
+                yield _alone(known, name, space, given, place)
+            elif node.starts != "no":
+                yield replace(node, starts="unknown", parameters=given)
+        path = f"{SHARE}{package.name}/{file.path}"
+        if path not in named and any(entries_of_file(file)):
+            place = Place(file.shown, 1)
+            config = GivenParameter("config_file", (path,), place)
+            known = known_nodes().names["ros_gz_bridge"]
+            yield _alone(known, known.name, "/", (config,), place)
 
 
 def _alone(
