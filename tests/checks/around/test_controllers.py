@@ -198,3 +198,41 @@ def test_a_class_is_package_and_class(
     (problem,) = check(package / "r.urdf")
 
     assert (problem.code, problem.hint) == ("controller-unknown", f"write {right}")
+
+
+OWN = """\
+import os
+from ament_index_python.packages import get_package_share_directory
+""" + LAUNCH.replace(
+    "    return",
+    """    params = os.path.join(
+        get_package_share_directory("r"), "config", "controllers.yaml")
+    return""",
+).replace('"wheels"', '"{}", "--param-file", params')
+
+
+@pytest.mark.parametrize(
+    ("name", "found"),
+    [("wheels", []), ("drive", ["write wheels"]), ("brake", [])],
+)
+def test_a_spawner_finds_its_controller_in_its_file(
+    package: Path, name: str, found: list[str]
+) -> None:
+    (package / "launch/robot.launch.py").write_text(OWN.format(name), "utf-8")
+    brake = "brake:\n  ros__parameters:\n    rate: 1.0\n"
+    (package / "config/controllers.yaml").write_text(YAML + brake, "utf-8")
+    problems = check(package / "r.urdf")
+    assert [p.hint for p in problems if p.code == "controller-unknown"] == found
+
+
+@pytest.mark.parametrize(
+    ("name", "found"), [("diff_drive_controller", ["write wheels"]), ("lift", [])]
+)
+def test_the_only_controller_that_none_asks_for_is_the_one_of_the_class(
+    package: Path, name: str, found: list[str]
+) -> None:
+    launch = package / "launch/robot.launch.py"
+    launch.write_text(LAUNCH.replace('"wheels"', f'"{name}"'), "utf-8")
+    other = package / "launch/other.launch.py"
+    other.write_text(LAUNCH, "utf-8")
+    assert [problem.hint for problem in check(package / "r.urdf")] == found

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from itertools import pairwise
 
-from sambot_viz.checks.around.files.parameters import Parameter, controller_types
+from sambot_viz.checks.around.files.parameters import (
+    Parameter,
+    YamlFile,
+    controller_types,
+)
 from sambot_viz.checks.around.parameters.known import known_parameters
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.running.includes import installed_as
 from sambot_viz.checks.around.running.known import known_nodes
 from sambot_viz.checks.around.running.system import RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -26,6 +32,7 @@ _WITH_VALUE = frozenset(
     """.split()
 )
 """Options of the spawner that have a value."""
+_FILES = frozenset({"-p", "--param-file"})
 _OPTION = re.compile(r"--?[a-z-]*")
 _GENERIC = frozenset({"broadcaster", "controller"})
 """Words that many names share."""
@@ -48,50 +55,95 @@ def _meant(name: str, names: Iterable[str]) -> str | None:
 
 def undeclared_controllers(around: Surroundings) -> Iterator[Problem]:
     """Report controllers whose spawner or parameters use another name."""
-    declared = declared_controllers(around)
-    if not declared:
+    every = declared_controllers(around)
+    if not every:
         return
-    known = known_nodes().nodes
-    spawners = [
-        node
-        for node in around.running.started
-        if (program := known.get((node.package, node.executable)))
-        and program.does("spawns")
-    ]
-    asked = {name for node in spawners for name, _ in _asked(node)}
-    free = [name for name in declared if name not in asked]
-    sections = {key.rpartition("/")[2] for f in around.yaml_files for key in f.nodes}
+    spawners = list(_spawners(around))
+    foreign = around.ownership.foreign
+    of_robot = declared_controllers(around.of_robot) if foreign else every
     for node in spawners:
         words = [word for word, _ in node.placed_arguments]
-        if any(word in (None, "-p", "--param-file", "-t") for word in words):
+        own = _own_parameters(around, node)
+        if None in words or "-t" in words or (own is None and _has_own(words)):
             # Its own parameters are unknown.
             continue
+        known = every if node.launch in foreign else of_robot
+        given = controller_types([own]) if own is not None else known
+        beside = (each for each in spawners if each.launch == node.launch)
+        asked = {name for each in beside for name, _ in _asked(each)}
+        free = [name for name in given if name not in asked]
+        inside = {key.rpartition("/")[2] for key in own.nodes} if own else set[str]()
         for name, place in _asked(node):
-            near = _meant(name, declared) if name not in declared else None
-            if near is None and name not in declared and len(free) == 1:
-                words = {*name.split("_")} & {*free[0].split("_")} - _GENERIC
-                known = around.running.is_whole and name not in sections
-                near = free[0] if words and known else None
+            if name in known or name in given or name in inside:
+                continue
+            near = _meant(name, given)
+            only = free[0] if near is None and len(free) == 1 else None
+            if only is not None and (own or _is_only(around, name, given[only], only)):
+                near = only
             if near is not None:
-                yield Problem.at(
-                    place,
-                    "warning",
-                    "controller-unknown",
-                    f"the spawner asks for the controller {name}, but the controller "
-                    f"manager knows {near} ({where(declared[near].place, place)}): it "
-                    "waits, and the controller does not start",
-                    write(place, name, near),
-                )
-    yield from _unread_sections(around, declared)
+                yield _undeclared(name, near, given[near], place, of_file=bool(own))
+    yield from _unread_sections(around, every)
+
+
+def _undeclared(
+    name: str, near: str, right: Parameter, place: Place, *, of_file: bool
+) -> Problem:
+    knows = "its --param-file has" if of_file else "the controller manager knows"
+    return Problem.at(
+        place,
+        "warning",
+        "controller-unknown",
+        f"the spawner asks for the controller {name}, but {knows} {near} "
+        f"({where(right.place, place)}): it waits, and the controller does not start",
+        write(place, name, near),
+    )
+
+
+def _spawners(around: Surroundings) -> Iterator[RunningNode]:
+    known = known_nodes().nodes
+    for node in around.running.started:
+        program = known.get((node.package, node.executable))
+        if program is not None and program.does("spawns"):
+            yield node
+
+
+def _has_own(words: Collection[str | None]) -> bool:
+    return not _FILES.isdisjoint(words)
+
+
+def _own_parameters(around: Surroundings, node: RunningNode) -> YamlFile | None:
+    """Return the only --param-file of a spawner; None where it is not known."""
+    words = [word or "" for word, _ in node.placed_arguments]
+    paths = [after for word, after in pairwise(words) if word in _FILES]
+    named = around.named(paths[0]) if len(paths) == 1 else None
+    own = installed_as(*named) if named is not None else None
+    shown = named[0].shown(own) if named is not None and own is not None else None
+    return next((file for file in around.yaml_files if file.shown == shown), None)
+
+
+def _is_only(around: Surroundings, name: str, right: Parameter, free: str) -> bool:
+    """Return whether a name can only mean the one controller that none asks for.
+
+    The names share a word, or the name has one of the class, and no unknown node is a
+    controller manager with others.
+    """
+    said = {*free.split("_"), *right.fact.value.partition("/")[0].split("_")}
+    sections = {key.rpartition("/")[2] for f in around.yaml_files for key in f.nodes}
+    of_model = {
+        posixpath.basename(fact.value)
+        for plugin in around.plugins
+        for fact in plugin.all("parameters")
+    }
+    is_whole = around.running.is_whole
+    is_whole |= posixpath.basename(right.place.file) in of_model
+    return bool({*name.split("_")} & said - _GENERIC) and (
+        is_whole and name not in sections
+    )
 
 
 def options_without_value(around: Surroundings) -> Iterator[Problem]:
     """Report an option of a spawner whose value is missing."""
-    known = known_nodes().nodes
-    for node in around.running.started:
-        program = known.get((node.package, node.executable))
-        if program is None or not program.does("spawns"):
-            continue
+    for node in _spawners(around):
         words = [*node.placed_arguments, ("--", node.place)]
         for (word, place), (after, _) in pairwise(words):
             if word in _WITH_VALUE and _OPTION.fullmatch(after or ""):
