@@ -34,6 +34,7 @@ find_package(ament_cmake REQUIRED)
 install(DIRECTORY launch rviz DESTINATION share/${PROJECT_NAME})
 ament_package()
 """,
+    "rviz/colours.yaml": "/**:\n  ros__parameters: {colour: red}\n",
     "rviz/robot.rviz": """\
 Visualization Manager:
   Global Options: {Fixed Frame: base}
@@ -82,6 +83,7 @@ def generate_launch_description():
   <node pkg="rviz2" exec="rviz2" output="screen" if="$(var view)"
         args="-d $(find-pkg-share robot)/rviz/robot.rviz">
     <param name="use_sim_time" value="true"/>
+    <param from="$(find-pkg-share robot)/rviz/colours.yaml"/>
     <remap from="a" to="b"/>
   </node>
 </launch>
@@ -133,6 +135,9 @@ CASES = [
     (XML, "$(var view)", "$(arg view)", "no substitution $(arg …), but $(var …)"),
     (XML, "$(var view)", "$(var vew)", "vew is not declared; view is (line 2)"),
     (XML, "<remap ", "<remaps ", "no <remaps> in <node>, but <remap>"),
+    (XML, "<param from", '<rosparam command="load" file', "no <rosparam> in <node>"),
+    (XML, "<param from", '<param command="load" from', "has no command beside it"),
+    (XML, "<param from", '<param name="a" from', "has no name beside it"),
     (XML, "default=", "value=", "<arg> has no attribute value, but default"),
     (YAML, "exec:", "executable:", "<node> has no attribute executable, but exec"),
     (PYTHON, "'screen'", "'sceen'", "output is sceen, and takes only screen, log"),
@@ -169,6 +174,8 @@ UNSURE = [
     (PYTHON, "Configuration('gui')", "Configuration('quick')", "quick is not declared"),
     (PYTHON, "remappings=[('a', 'b')]", "remappings=['a', 'b']", "and this is none"),
     (PYTHON, "'true'),\n", "'true'),\n        [],\n", "a list in a list of actions"),
+    (XML, "<param from", '<param name="a" value="b" from', "has no name beside it"),
+    (XML, 'param name="use_sim_time" v', 'rosparam param="a" v', "no <rosparam> in"),
     (XML, "$(var view)", "$(var quick)", "quick is not declared"),
     (PYTHON, "'view': 'true'", "'view': 'yes'", "view is yes, neither true nor false"),
     (XML, "  </node>\n", "", "<node> begins here, and </launch> comes before"),

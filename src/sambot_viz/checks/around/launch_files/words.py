@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from functools import partial
 
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
@@ -12,13 +12,16 @@ from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.words import WordKind, WrittenWord, misspelt
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.checks.rule import listed
+from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import (
+    delete_attribute,
     rename_attribute,
     rename_element,
+    together,
     write,
     write_between,
 )
-from sambot_viz.errors import Fix, Place, Problem
+from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.xml.element import Element
 
 _STOPS = "ros2 launch stops with it"
@@ -48,6 +51,8 @@ _COMMAND = WordKind(
     "{owner} has no command {wrong}, but {right}: it stops with an error",
 )
 _DOLLAR = re.compile(r"\$\(\s*([\w-]+)")
+_OF_FILE = ("from", "allow_substs")
+"""The attributes of a <param> that reads a file."""
 _OLD = frozenset({"type", "rosparam", "$find", "$arg"})
 _NEW = frozenset({"exec", "let", "$var", "$find-pkg-share", "composable_node"})
 """Words that exist only in launch files of ROS 1, or only in those of ROS 2."""
@@ -127,6 +132,7 @@ def unknown_elements_of_launch(around: Surroundings) -> Iterator[Problem]:
             is_xml = not root.place.file.endswith((".yaml", ".yml"))
             for element in root.iter():
                 yield from misspelt(_attributes(element, is_xml), _ATTRIBUTE)
+                yield from _beside_file(element, is_xml)
                 yield from misspelt(_substitutions(element), _SUBSTITUTION)
                 yield from misspelt(_children(element, is_xml), _ELEMENT)
 
@@ -169,6 +175,31 @@ def _substitutions(element: Element) -> Iterator[WrittenWord]:
             yield WrittenWord("$", name, (), element.place, renamed)
 
 
+def _beside_file(element: Element, is_xml: bool) -> Iterator[Problem]:
+    """Report attributes of a <param> that reads a file, which has no others."""
+    for name in _unread(element.tag, element.attributes):
+        if nearest(name, _OF_FILE, 0.75) is not None:
+            continue
+        place = element.place
+        other = {"name", "value"} <= element.attributes.keys()
+        fix = Fix("write two <param>") if other else Fix(f"delete {name}")
+        if is_xml and not other:
+            fix = Fix(fix.hint, delete_attribute(place, name))
+        yield Problem.at(
+            place if is_xml else key_place(place, name),
+            "error",
+            "launch-code",
+            f"a <param> with from reads a file, and has no {name} beside it: {_STOPS}",
+            fix,
+        )
+
+
+def _unread(tag: str, given: Collection[str]) -> list[str]:
+    """Return the attributes that a <param> with a file does not have."""
+    reads = tag == "param" and "from" in given
+    return [name for name in given if name not in _OF_FILE] if reads else []
+
+
 def _children(element: Element, is_xml: bool) -> Iterator[WrittenWord]:
     for child in element.children:
         place, tag = child.place, child.tag
@@ -176,9 +207,30 @@ def _children(element: Element, is_xml: bool) -> Iterator[WrittenWord]:
             place = key_place(element.place, tag)
         fix: Callable[[str], Fix] = partial(write, place, tag)
         if is_xml:
-            fix = partial(_element, place, tag)
+            fix = partial(_renamed, child)
         yield WrittenWord(f"{element.tag}/", tag, (), place, fix, element.tag)
 
 
-def _element(place: Place, wrong: str, right: str) -> Fix:
-    return rename_element(place, wrong, right, f"write <{right}>")
+def _renamed(element: Element, right: str) -> Fix:
+    """Return the fix that gives an element another name, and its attributes theirs."""
+    place, tag = element.place, element.tag
+    row = vocabulary("launch_elements").get(right, ())
+    others = dict(word.split("=") for word in row if "=" in word)
+    values = {others.get(n, n): value for n, value in element.attributes.items()}
+    gone = _unread(right, values)
+    shown = " ".join(f'{n}="{v}"' for n, v in values.items() if n not in gone)
+    if tag != "rosparam":
+        return rename_element(place, tag, right, f"write <{right}>")
+    if "from" not in values:
+        return Fix('write <param name="…" value="…"/> for each of its parameters')
+    hint = f"write <{right} {shown}/>"
+    return together(
+        hint,
+        rename_element(place, tag, right, hint),
+        *(
+            rename_attribute(place, name, others[name], value, hint)
+            for name, value in element.attributes.items()
+            if name in others
+        ),
+        *(Fix(hint, delete_attribute(place, name)) for name in gone),
+    )
