@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 from itertools import pairwise
+from typing import NamedTuple
 
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
@@ -14,8 +16,30 @@ _PROGRAMS = {"create": "ros_gz_sim", "spawn_entity.py": "gazebo_ros"}
 """Program → its package."""
 
 
+class SpawnOption(NamedTuple):
+    """An option of the program that puts the robot into Gazebo.
+
+    Attributes:
+        fact: the value.
+        node: the expression of the value.
+    """
+
+    fact: Fact
+    node: ast.expr
+
+
 def spawned_with(launch: LaunchFile, option: str) -> Iterator[Fact]:
     """Yield the values of an option of all programs that put a robot into a world.
+
+    Args:
+        launch: the launch file.
+        option: "world" or "topic".
+    """
+    return (each.fact for each in spawn_options(launch, option))
+
+
+def spawn_options(launch: LaunchFile, option: str) -> Iterator[SpawnOption]:
+    """Yield an option of all programs that put a robot into a world.
 
     Args:
         launch: the launch file.
@@ -30,7 +54,7 @@ def spawned_with(launch: LaunchFile, option: str) -> Iterator[Fact]:
             yield from _of_program(launch, call, option)
 
 
-def _of_program(launch: LaunchFile, call: Call, option: str) -> Iterator[Fact]:
+def _of_program(launch: LaunchFile, call: Call, option: str) -> Iterator[SpawnOption]:
     """Yield the value of an option, in arguments or parameters of a node."""
     said = launch.values.said
     program = launch.text(call, "executable") or ""
@@ -39,13 +63,15 @@ def _of_program(launch: LaunchFile, call: Call, option: str) -> Iterator[Fact]:
     for (name, _), (value, node) in pairwise(call.listing("arguments").items):
         text = said(value)
         if said(name) == f"-{option}" and text:
-            yield Fact(text, launch.place(node))
+            yield SpawnOption(Fact(text, launch.place(node)), node)
     for item, _ in call.listing("parameters").items:
         yield from _in_table(launch, item, option)
 
 
-def _in_table(launch: LaunchFile, table: PythonValue, option: str) -> Iterator[Fact]:
+def _in_table(
+    launch: LaunchFile, table: PythonValue, option: str
+) -> Iterator[SpawnOption]:
     for pair in table.pairs if isinstance(table, Table) else ():
         text = launch.values.said(pair.value) if pair.key == option else None
         if text:
-            yield Fact(text, launch.place(pair.node))
+            yield SpawnOption(Fact(text, launch.place(pair.node)), pair.node)
