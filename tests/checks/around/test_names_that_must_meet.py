@@ -612,6 +612,7 @@ MISTAKES = [
             ),
             (LAUNCH, 'package="gazebo_ros"', 'package="ros_gz_sim"'),
             (LAUNCH, 'executable="spawn_entity.py"', 'executable="create"'),
+            (LAUNCH, '"-entity"', '"-name"'),
         ),
         (MODEL, '<plugin filename="libgazebo_ros_imu_sensor.so" name="imu_plugin">'),
         (LAUNCH, 'ExecuteProcess(cmd=["gz", "sim"]),'),
@@ -636,14 +637,7 @@ MISTAKES = [
         ),
         (LAUNCH, 'Node(package="gazebo_ros", executable="spawn_entity.py"),'),
         (LAUNCH, "bridge = RosGzBridge("),
-        "or gz_sim.launch.py and create of ros_gz_sim",
-        fixed=(
-            (
-                LAUNCH,
-                'Node(package="gazebo_ros", executable="spawn_entity.py"),',
-                'Node(package="ros_gz_sim", executable="create"),',
-            ),
-        ),
+        "write package='ros_gz_sim' and executable='create'",
     ),
     one(
         "launch-xacro-py",

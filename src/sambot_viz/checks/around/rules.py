@@ -28,12 +28,12 @@ from sambot_viz.checks.around.frames.odometry import (
     shared_frames,
     unpublished_odometry,
 )
+from sambot_viz.checks.around.gazebo.both import started_twice
 from sambot_viz.checks.around.gazebo.drives import wrong_sides_of_controllers
 from sambot_viz.checks.around.gazebo.generations import (
     elements_of_the_other,
     hardware_of_the_other,
     plugins_of_the_other,
-    started_twice,
     xacro_py,
 )
 from sambot_viz.checks.around.gazebo.spawned_into import spawned_into
@@ -111,6 +111,7 @@ from sambot_viz.checks.around.launch_files.nodes import (
     rviz_without_option,
     state_publishers,
 )
+from sambot_viz.checks.around.launch_files.options import unknown_options
 from sambot_viz.checks.around.launch_files.order import late_declarations
 from sambot_viz.checks.around.launch_files.parameters import launched_parameters
 from sambot_viz.checks.around.launch_files.paths import (
@@ -347,6 +348,7 @@ OF_FILES: tuple[Check, ...] = (
     missing_commas,
     unknown_keywords,
     unknown_commands,
+    unknown_options,
     other_words,
     misspelt_truths,
     unknown_elements_of_launch,

@@ -7,14 +7,13 @@ import re
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.files.gazebo import Generation, Plugin
-from sambot_viz.checks.around.gazebo.starts import may_start, starts
+from sambot_viz.checks.around.gazebo.starts import NAMES, may_start, starts
 from sambot_viz.checks.around.gazebo.systems import among_others, attributes
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import rename_element, write
 from sambot_viz.errors import Place, Problem
 
-_NAMES: dict[Generation, str] = {"gz": "Gazebo", "classic": "Gazebo Classic"}
 _PLUGINS: dict[str, tuple[str, str]] = {
     "diff": ("libgazebo_ros_diff_drive.so", "diff-drive"),
     "joint": ("libgazebo_ros_joint_state_publisher.so", "joint-state-publisher"),
@@ -56,8 +55,8 @@ def plugins_of_the_other(around: Surroundings) -> Iterator[Problem]:
         plugin.element.place,
         "warning",
         "gazebo-generation",
-        f"the plugin {plugin.filename} is for {_NAMES[other]}, but "
-        f"{where(start.place, plugin.element.place)} starts {_NAMES[start.generation]} "
+        f"the plugin {plugin.filename} is for {NAMES[other]}, but "
+        f"{where(start.place, plugin.element.place)} starts {NAMES[start.generation]} "
         f"({start.what}), which cannot load it",
         _replacement(plugin, start.generation),
     )
@@ -82,7 +81,7 @@ def hardware_of_the_other(around: Surroundings) -> Iterator[Problem]:
                 element.place,
                 "warning",
                 "gazebo-generation",
-                f"the hardware {kind} is for {_NAMES[known[0]]}, but the plugin "
+                f"the hardware {kind} is for {NAMES[known[0]]}, but the plugin "
                 f"{plugin.filename} ({where(plugin.element.place, element.place)}) is "
                 "for the other one: no controller gets the joints",
                 write(element.place, kind, right)
@@ -97,7 +96,7 @@ def _replacement(plugin: Plugin, wanted: Generation) -> str:
         if mark in plugin.filename:
             name = attributes(system) if wanted == "gz" else f'filename="{classic}"'
             return f"write {name}, and the elements that it reads"
-    return f"use the plugin of {_NAMES[wanted]}, or start the other one"
+    return f"use the plugin of {NAMES[wanted]}, or start the other one"
 
 
 def elements_of_the_other(around: Surroundings) -> Iterator[Problem]:
@@ -123,28 +122,6 @@ def elements_of_the_other(around: Surroundings) -> Iterator[Problem]:
                     if value == "the same"
                     else hint,
                 )
-
-
-def started_twice(around: Surroundings) -> Iterator[Problem]:
-    """Report a launch file that starts parts of both."""
-    for launch in around.launches:
-        first: dict[Generation, Place] = {}
-        whats: dict[Generation, str] = {}
-        for start in starts(launch):
-            first.setdefault(start.generation, start.place)
-            whats.setdefault(start.generation, start.what)
-        if len(first) == 2:
-            place, other = first["classic"], first["gz"]
-            yield Problem.at(
-                place,
-                "warning",
-                "gazebo-both",
-                f"this starts a part of Gazebo Classic ({whats['classic']}), and "
-                f"{where(other, place)} one of Gazebo ({whats['gz']}): they do not "
-                "find each other",
-                "start gazebo.launch.py and spawn_entity.py of gazebo_ros for Classic, "
-                "or gz_sim.launch.py and create of ros_gz_sim for Gazebo",
-            )
 
 
 def xacro_py(around: Surroundings) -> Iterator[Problem]:

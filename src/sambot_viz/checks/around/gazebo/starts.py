@@ -11,7 +11,8 @@ from sambot_viz.checks.around.launching.launch_file import NODES, LaunchFile
 from sambot_viz.checks.around.launching.python_parts import Call
 from sambot_viz.errors import Place
 
-_PACKAGES: dict[str, Generation] = {
+NAMES: dict[Generation, str] = {"gz": "Gazebo", "classic": "Gazebo Classic"}
+PACKAGES: dict[str, Generation] = {
     "gazebo_ros": "classic",
     "ros_gz_sim": "gz",
     "ros_gz_bridge": "gz",
@@ -43,11 +44,13 @@ class Start(NamedTuple):
         generation: which Gazebo.
         what: its name.
         place: its line.
+        call: the action that starts it.
     """
 
     generation: Generation
     what: str
     place: Place
+    call: Call
 
     @property
     def simulates(self) -> bool:
@@ -69,20 +72,20 @@ def may_start(launch: LaunchFile) -> frozenset[Generation]:
 def _starts(launch: LaunchFile, call: Call) -> Iterator[Start]:
     name, place = call.name, call.place
     if name in _ACTIONS:
-        yield Start(_ACTIONS[name], name, place)
+        yield Start(_ACTIONS[name], name, place, call)
     elif name in NODES:
         package = launch.text(call, "package") or ""
         program = launch.text(call, "executable") or ""
-        if package in _PACKAGES:
-            yield Start(_PACKAGES[package], f"{program} of {package}", place)
+        if package in PACKAGES:
+            yield Start(PACKAGES[package], f"{program} of {package}", place, call)
     elif name == "IncludeLaunchDescription":
         path = launch.text(call, "launch_description_source", 0) or ""
         package = path.removeprefix(SHARE).partition("/")[0]
-        if path.startswith(SHARE) and package in _PACKAGES:
+        if path.startswith(SHARE) and package in PACKAGES:
             file = path.rpartition("/")[2]
-            yield Start(_PACKAGES[package], f"{file} of {package}", place)
+            yield Start(PACKAGES[package], f"{file} of {package}", place, call)
     elif name == "ExecuteProcess":
         words = " ".join(launch.values.texts(call.given("cmd"))).split()
         for program in (" ".join(words[:1]), " ".join(words[:2])):
             if program in _PROGRAMS:
-                yield Start(_PROGRAMS[program], program, place)
+                yield Start(_PROGRAMS[program], program, place, call)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.gazebo.both import misplaced_packages
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
@@ -109,7 +110,7 @@ def missing_dependencies(around: Surroundings) -> Iterator[Problem]:
     }
     known = _started() | others
     listed_here = named & started.keys() & known
-    near = {*_meant(around).values()}
+    near = {*_meant(around).values(), *misplaced_packages(around)}
     # A dependency may be in an element with a misspelt name.
     root = around.manifest
     near |= {child.text.strip() for child in root.children} if root else set()
