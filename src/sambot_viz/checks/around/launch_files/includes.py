@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from sambot_viz.checks.around.files.launch_values import SHARE
-from sambot_viz.checks.around.launch_files.arguments import declared_in
+from sambot_viz.checks.around.launch_files.declarations import declared_in
+from sambot_viz.checks.around.launch_files.included import IncludedFile, included_file
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.launching.python_parts import Call, Table
-from sambot_viz.checks.around.running.includes import installed_as
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.words import meant_word
 from sambot_viz.checks.vocabulary import vocabulary
@@ -19,19 +18,6 @@ from sambot_viz.errors import Problem
 
 _LIKENESS, _LIKE_FILE = 0.8, 0.85
 _FOLDER = "launch/"
-
-
-@dataclass(frozen=True, slots=True)
-class IncludedFile:
-    """A launch file that another one includes.
-
-    Attributes:
-        name: its file name.
-        arguments: its declared arguments, as words of a vocabulary.
-    """
-
-    name: str
-    arguments: tuple[str, ...]
 
 
 def includes_without_argument(around: Surroundings) -> Iterator[Problem]:
@@ -77,25 +63,6 @@ def _meant(name: str, file: IncludedFile) -> str | None:
     alike = [k for k in known if words < set(k.split("_")) or words > set(k.split("_"))]
     near = meant_word(file.arguments, name, _LIKENESS)
     return near or (alike[0] if len(alike) == 1 and name not in known else None)
-
-
-def included_file(
-    around: Surroundings, launch: LaunchFile, call: Call
-) -> IncludedFile | None:
-    """Return the known facts of an included file; None for an unknown one."""
-    path = launch.text(call, "launch_description_source", 0) or ""
-    package, _, below = path.removeprefix(SHARE).partition("/")
-    name = below.rpartition("/")[2]
-    known = vocabulary("launch_files").get(f"{package}/{name}")
-    if known is not None:
-        return IncludedFile(name, known)
-    named = around.named(path)
-    own = installed_as(*named) if named is not None else None
-    if named is None or own is None:
-        return None
-    shown = named[0].shown(own)
-    declared = declared_in(named[0]).get(shown)
-    return None if declared is None else IncludedFile(name, tuple(declared))
 
 
 def misplaced_includes(around: Surroundings) -> Iterator[Problem]:

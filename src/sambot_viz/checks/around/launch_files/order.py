@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from sambot_viz.checks.around.launch_files.includes import included_file
+from sambot_viz.checks.around.launch_files.included import included_file
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.launching.python_parts import Table
 from sambot_viz.checks.around.place import where
@@ -24,7 +24,7 @@ _SETS = frozenset({"GroupAction", "OpaqueFunction", "SetLaunchConfiguration"})
 """Actions that may give an argument to those after them."""
 
 
-class _ListedAction(NamedTuple):
+class ListedAction(NamedTuple):
     """An action of the description.
 
     Attributes:
@@ -40,7 +40,7 @@ def late_declarations(around: Surroundings) -> Iterator[Problem]:
     """Report declarations behind actions that use their launch argument."""
     for launch in around.launches:
         declared = [launch.text(c, "name", 0) for c in launch.called(_DECLARES)]
-        entries = _entries(launch)
+        entries = listed_actions(launch)
         for at, entry in enumerate(entries):
             name = _declared(entry, launch)
             if name is None or declared.count(name) != 1:
@@ -65,7 +65,7 @@ def late_declarations(around: Surroundings) -> Iterator[Problem]:
 
 
 def _leaves(
-    name: str, entry: _ListedAction, launch: LaunchFile, around: Surroundings
+    name: str, entry: ListedAction, launch: LaunchFile, around: Surroundings
 ) -> bool:
     """Return whether an action certainly does not set a launch argument."""
     made = entry.action
@@ -81,22 +81,22 @@ def _leaves(
     return file is not None and is_known and name not in (*file.arguments, *given)
 
 
-def _declared(entry: _ListedAction, launch: LaunchFile) -> str | None:
+def _declared(entry: ListedAction, launch: LaunchFile) -> str | None:
     for call in launch.called(_DECLARES):
         if call.node is entry.action:
             return launch.text(call, "name", 0)
     return None
 
 
-def _entries(launch: LaunchFile) -> list[_ListedAction]:
+def listed_actions(launch: LaunchFile) -> list[ListedAction]:
     """Return the actions of the only description, in the order of their execution."""
     descriptions = list(launch.called(_DESCRIPTION))
     if len(descriptions) != 1:
         return []
-    found: list[_ListedAction] = []
+    found: list[ListedAction] = []
     given = descriptions[0].given("initial_entities", 0)
     for node in given.elts if isinstance(given, ast.List) else ():
-        found.append(_ListedAction(node, launch.origin(node)))
+        found.append(ListedAction(node, launch.origin(node)))
     added = descriptions[0].place.line
     for function in launch.tree.body:
         for node in function.body if isinstance(function, ast.FunctionDef) else ():
@@ -104,7 +104,7 @@ def _entries(launch: LaunchFile) -> list[_ListedAction]:
                 case ast.Expr(
                     value=ast.Call(func=ast.Attribute(attr="add_action"), args=[one])
                 ) if node.lineno > added:
-                    found.append(_ListedAction(node, launch.origin(one)))
+                    found.append(ListedAction(node, launch.origin(one)))
                 case _:
                     pass
     return found
