@@ -55,6 +55,8 @@ from launch_ros.actions import Node
 def generate_launch_description():
     share = get_package_share_directory('robot')
     config = os.path.join(share, 'rviz', 'robot.rviz')
+    kind = 'yaml'
+    colours = os.path.join(share, 'rviz', f'colours.{kind}')
     other = 'start'
     return LaunchDescription([
         IncludeLaunchDescription(
@@ -67,7 +69,7 @@ def generate_launch_description():
             executable='joint_state_publisher',
             output='screen',
             name=other,
-            parameters=[{'use_sim_time': True}],
+            parameters=[{'use_sim_time': True}, colours],
             arguments=[
                 '--log-level',
                 'info',
@@ -111,7 +113,8 @@ CASES = [
     (PYTHON, "'--log-level',\n", "'--log-level'\n", "a comma is missing at the end"),
     (PYTHON, "('a', 'b')", "['a', 'b']", "remappings are a list of tuples"),
     (PYTHON, "[('a', 'b')]", "('a', 'b')", "remappings are a list of tuples"),
-    (PYTHON, "[{'use_sim_time': True}]", "{'use_sim_time': True}", "this is a dict"),
+    (PYTHON, "[{'use_sim_time': True}, colours]", "{'use_sim_time': True}", "this is a dict"),
+    (PYTHON, "f'colours", "'colours", "has no f before its quotation mark"),
     (PYTHON, "time': True", "time', True", "use_sim_time gets no value"),
     (
         PYTHON,
@@ -128,7 +131,7 @@ CASES = [
         "executable='joint_state_publisher_gui'",
         "which is in joint_state_publisher_gui",
     ),
-    (PYTHON, "Configuration('gui')", "Configuration('gu')", "gui is (line 20)"),
+    (PYTHON, "Configuration('gui')", "Configuration('gu')", "gui is (line 22)"),
     (XML, "pkg=", "package=", "<node> has no attribute package, but pkg"),
     (XML, "exec=", "type=", "<node> has no attribute type, but exec"),
     (XML, "find-pkg-share", "find", "no substitution $(find …)"),
@@ -187,6 +190,12 @@ UNSURE = [
         "joint_state_publisher has no pac",
     ),
     (PYTHON, "'gui', default", "default", "DeclareLaunchArgument has no name, which"),
+    (
+        PYTHON,
+        "share, 'rviz', f'colours.{kind}')",
+        "share, '{gui}')\n    gui = LaunchConfiguration('gui')",
+        "has no f before its quotation mark",
+    ),
     (PYTHON, "(share, 'r", "(other, 'r", "other is used here, but gets its first"),
 ]
 

@@ -52,6 +52,7 @@ from sambot_viz.checks.around.gazebo.world_values import (
 )
 from sambot_viz.checks.around.joint_names import joints_of_controllers
 from sambot_viz.checks.around.launch_files.arguments import undeclared_arguments
+from sambot_viz.checks.around.launch_files.braces import missing_prefixes
 from sambot_viz.checks.around.launch_files.called_modules import called_modules
 from sambot_viz.checks.around.launch_files.calls import (
     calls_without_argument,
@@ -369,6 +370,7 @@ OF_FILES: tuple[Check, ...] = (
     lists_of_actions,
     plain_substitutions,
     joined_texts,
+    missing_prefixes,
     several_words,
     joined_paths,
     handlers_that_wait,

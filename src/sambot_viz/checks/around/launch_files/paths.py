@@ -10,6 +10,7 @@ from pathlib import Path, PurePosixPath
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import YamlFile
+from sambot_viz.checks.around.launch_files.braces import braced_names
 from sambot_viz.checks.around.launch_files.imports import modules
 from sambot_viz.checks.around.launch_files.words import of_ros1
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
@@ -56,6 +57,9 @@ def missing_files(around: Surroundings) -> Iterator[Problem]:
         if fact.place.file in old:
             continue
         known.add(key)
+        if launch and braced_names(below, launch):
+            # The file that is meant has another name.
+            continue
         if (launch and _makes_files(launch)) or not _is_missing(below, package):
             continue
         read = _read_by(launch, fact, package) if launch is not None else None

@@ -123,6 +123,10 @@ class LaunchFile:
         several = (name for name, times in Counter(set_at).items() if times > 1)
         return found | dict.fromkeys(found.keys() & several)
 
+    def is_variable(self, name: str) -> bool:
+        """Return whether a name is a variable with only one value."""
+        return self._set.get(name) is not None
+
     def assigned(self, node: ast.expr) -> ast.expr:
         """Return the expression inside variables."""
         for _ in range(limits.YAML_DEPTH.value):
