@@ -798,3 +798,32 @@ def test_links_of_one_macro_with_an_impossible_inertia_are_one_problem(
     )
     assert 'ixy="1e-06" ixz="1e-06" iyz="1e-06" are too large' in problem.message
     assert problem.hint.startswith("write 0 for ixy, ixz and iyz")
+
+
+@pytest.mark.parametrize(
+    ("caster", "depth"), [("0.2 0 -0.1", "0.1 m"), ("0.2 0 -0.03", "0.03 m")]
+)
+def test_a_caster_below_the_floor_of_the_wheels_is_raised(
+    checked: Checked, caster: str, depth: str
+) -> None:
+    (problem,) = checked(cart(caster=caster), "wheel-not-on-ground")
+
+    assert problem.severity == "warning"
+    assert problem.message == (
+        f"caster ends {depth} below the floor on which left and right stand: the "
+        "robot is tilted"
+    )
+    assert [edit.text for edit in problem.edits] == ["0"]
+
+
+@pytest.mark.parametrize(
+    ("body", "why"),
+    [
+        (cart(caster="0.2 0 -0.01"), "a little lower"),
+        (cart(caster="0.2 0 -0.1").replace("caster", "hook"), "it is no caster"),
+    ],
+)
+def test_a_part_below_the_wheels_may_be_right(
+    checked: Checked, body: str, why: str
+) -> None:
+    assert checked(body, "wheel-not-on-ground") == [], why

@@ -97,6 +97,16 @@ def test_a_wheel_on_the_side_of_its_twin_is_put_on_its_own(tmp_path: Path) -> No
     assert mended(tmp_path, text, "wheels-in-one-place") == RIGHT_MODEL
 
 
+def test_a_wheel_that_is_turned_round_on_the_side_of_its_twin_is_put_on_its_own(
+    tmp_path: Path,
+) -> None:
+    right = RIGHT.replace('rpy="-1.5708', 'rpy="1.5708').replace("0 0 1", "0 0 -1")
+    wrong = right.replace("-0.2 0.02", "0.2 0.02")
+    text = RIGHT_MODEL.replace(RIGHT, wrong)
+
+    assert mended(tmp_path, text, "wheels-in-one-place") == text.replace(wrong, right)
+
+
 def test_a_wheel_without_limits_turns_without_end(tmp_path: Path) -> None:
     text = RIGHT_MODEL.replace(
         '"left_wheel_joint" type="continuous"', '"left_wheel_joint" type="revolute"'

@@ -20,6 +20,7 @@ from sambot_viz.checks.model.falling import falls_over
 from sambot_viz.checks.model.flat_wheels import flat_wheels
 from sambot_viz.checks.model.ground import wheels_off_the_ground
 from sambot_viz.checks.model.lengths import lengths_in_another_unit
+from sambot_viz.checks.model.low_casters import low_casters
 from sambot_viz.checks.model.masses import masses_in_grams
 from sambot_viz.checks.model.mesh_files import (
     MeshFiles,
@@ -79,6 +80,7 @@ RULES: tuple[Rule, ...] = (
     relative_meshes,
     unlike_twins,
     wheels_off_the_ground,
+    low_casters,
     wheels_across_their_axles,
     flat_wheels,
     exchanged_lengths,

@@ -73,12 +73,12 @@ def shapes_of(robot: Robot, link: str) -> tuple[Shape, ...]:
 
 def _is_lowest(robot: Robot, link: str) -> bool:
     """Return whether no other link reaches below a link, for known shapes only."""
-    own = min(_lows(robot, link), default=None)
-    others = [low for name in robot.links if name != link for low in _lows(robot, name)]
+    own = min(lows(robot, link), default=None)
+    others = [low for name in robot.links if name != link for low in lows(robot, name)]
     return own is not None and len(others) > 0 and own < min(others) + _SAME
 
 
-def _lows(robot: Robot, link: str) -> Iterator[float]:
+def lows(robot: Robot, link: str) -> Iterator[float]:
     """Yield the lowest height of each shape of a link except meshes [m]."""
     T_root_link = robot.at_start[link]
     for shape in shapes_of(robot, link):

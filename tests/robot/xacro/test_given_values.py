@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from sambot_viz import check
+from sambot_viz.edits import apply_edits
 
 MODEL = """<?xml version="1.0"?>
 <robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -148,3 +149,28 @@ def test_a_minus_before_a_negative_sum_goes_into_the_expression(tmp_path: Path) 
     (problem,) = (p for p in check(file) if p.code == "number-malformed")
 
     assert problem.hint == "write ${-(radius - 1)} for -${radius - 1}"
+
+
+@pytest.mark.parametrize("value", ["-0.1", "-${1/10}"])
+def test_a_minus_before_a_negative_property_that_others_use_as_it_is_is_one_too_many(
+    value: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "robot.urdf.xacro"
+    wrong = f"""<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:property name="low" value="{value}"/>
+<link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+<joint name="d" type="fixed"><parent link="a"/><child link="d"/>
+<origin xyz="0.2 0 ${{low}}"/></joint>
+<joint name="b" type="fixed"><parent link="a"/><child link="b"/>
+<origin xyz="0 0.2 ${{low}}"/></joint>
+<joint name="c" type="fixed"><parent link="a"/><child link="c"/>
+<origin xyz="0 -0.2 -${{low}}"/></joint></robot>
+"""
+    file.write_text(wrong)
+
+    (problem,) = (p for p in check(file) if p.code == "number-malformed")
+
+    assert (problem.line, problem.hint) == (9, "write ${low} for -${low}")
+    assert f"property low is {value} already" in problem.message
+    right = wrong.replace("-${low}", "${low}")
+    assert apply_edits(problem.edits, wrong) == right

@@ -163,9 +163,19 @@ def wheels_in_one_place(subject: Subject) -> Iterator[Problem]:
         ends = joint.limit.ends if joint.limit is not None else None
         moves = () if is_wheel else (joint.type, joint.axis, ends)
         key = (joint.parent, joint.origin, places, is_wheel, moves)
+        if is_wheel and all(isinstance(shape.geometry, Cylinder) for shape in shapes):
+            # Wheels of two sides may be turned round: their discs look alike.
+            key = (joint.parent, *_discs(joint, shapes))
         other = seen.setdefault(key, joint)
         if other is not joint and (is_wheel or _are_sides_of_one(other, joint)):
             yield _in_one_place(other, joint, subject)
+
+
+def _discs(joint: Joint, shapes: Iterable[Shape]) -> Iterator[object]:
+    """Yield the size of cylinders, and the place of their middle in the parent."""
+    for shape in shapes:
+        middle = joint.origin.pose.of(shape.origin.xyz)
+        yield shape.geometry, tuple(round(value, 6) + 0.0 for value in middle)
 
 
 def _are_sides_of_one(one: Joint, other: Joint) -> bool:

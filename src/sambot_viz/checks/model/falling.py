@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
@@ -18,6 +17,7 @@ from sambot_viz.robot.balance.balance import SAME_POINT, Balance, Tipping, balan
 from sambot_viz.robot.balance.ground import Contacts, axle_of, contacts
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import MeshFile
+from sambot_viz.robot.slips.wheel_names import CASTER
 
 if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh
@@ -26,8 +26,6 @@ _SMALLEST_SHARE = 0.02
 """Tolerance for a centre of mass beyond the edge [size of the robot]."""
 _CAUGHT = 0.05
 """Height below which a part keeps the robot nearly level [size of the robot]."""
-_CASTER = re.compile("(?<!broad)cast[eo]r", re.IGNORECASE)
-"""Names of parts that should touch the ground."""
 _FEWEST_WHEELS = 2
 _FEWEST_CONTACTS = 3
 
@@ -105,7 +103,7 @@ def _caster_in_the_air(
     if not gaps or min(gaps.values()) < _CAUGHT * feet.size:
         return
     above = {joint.child: joint for joint in robot.joints.values()}
-    casters = [link for link in gaps if link in above and _CASTER.search(link)]
+    casters = [link for link in gaps if link in above and CASTER.search(link)]
     if not casters:
         return
     caster = min(casters, key=lambda link: gaps[link])

@@ -6,6 +6,8 @@ import re
 
 WHEEL = re.compile("wheel|whl|t[iy]re")
 SWIVELS = re.compile("cast|swivel|steer|support|omni|rot|turn|pivot|yaw")
+CASTER = re.compile("(?<!broad)cast[eo]r", re.IGNORECASE)
+"""Names of parts that should touch the ground."""
 
 
 def rolls(joint: str, link: str) -> bool:

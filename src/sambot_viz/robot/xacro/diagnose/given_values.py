@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.urdf.attributes import BadNumber, read_number, read_numbers
 from sambot_viz.robot.xacro.diagnose.failed_expansion import line_in, parameters
@@ -27,6 +28,7 @@ _USE = re.compile(r"\$(?:\{([^}]*)\}|\(\s*arg\s+([^)]*)\))")
 _NAME = re.compile(r"[A-Za-z_]\w*")
 _MINUS = re.compile(r"(?<![\w}])-\$\{([^}]*)\}")
 _NEGATIVE = re.compile(r"\s*-[\d.]+\s*")
+_PLACES = re.compile(r"xyz\s*=\s*\"[^\"]*\"|<pose[^>]*>[^<]*")
 _DEFAULT = re.compile(r"(\w+):?=(\S+)")
 _LOOKS_LIKE_A_NUMBER = re.compile(r"\s*[+-]?[.,]?\d")
 
@@ -124,11 +126,16 @@ def _minus_twice(
     if problem.code not in _NUMBERS or "--" not in problem.message or minus is None:
         return None
     values = [one for one in given if one.name == minus[1].strip()]
-    if len(values) != 1 or not _NEGATIVE.fullmatch(values[0].value):
+    used = Place(problem.file or "", problem.line or 0, problem.column)
+    if len(values) != 1 or not values[0].value.strip().startswith("-"):
         hint = f"write ${{-({minus[1]})}} for {minus[0]}"
         return replace(problem, hint=hint, edits=())
     (one,) = values
-    used = Place(problem.file or "", problem.line or 0)
+    if not _NEGATIVE.fullmatch(one.value) or _is_usually_bare(sources, one.name):
+        bare = minus[0].removeprefix("-")
+        fix = write(used, minus[0], bare, f" for {minus[0]}")
+        message = f"{problem.message}; {one.owner} is {one.value.strip()} already"
+        return replace(problem, message=message, hint=fix.hint, edits=fix.edits)
     return replace(
         problem,
         message=f"{one.written(one.value)} of {one.owner} is negative, and "
@@ -141,6 +148,14 @@ def _minus_twice(
         column=one.place.column,
         edits=(),
     )
+
+
+def _is_usually_bare(sources: SourceSet, name: str) -> bool:
+    """Return whether most places have a name without a minus before it."""
+    texts = (source.text for _, source in sources.sources())
+    places = [place[0] for text in texts for place in _PLACES.finditer(text)]
+    uses = [use for p in places for use in re.findall(rf"(-?)\$\{{\s*{name}\s*\}}", p)]
+    return uses.count("") > uses.count("-")
 
 
 def _bare_name(problem: Problem, sources: SourceSet) -> Problem | None:
