@@ -827,3 +827,47 @@ def test_a_part_below_the_wheels_may_be_right(
     checked: Checked, body: str, why: str
 ) -> None:
     assert checked(body, "wheel-not-on-ground") == [], why
+
+
+COPIED = """<link name="a">
+<visual>
+<origin rpy="1.5708 0 0"/>
+<geometry>{0}</geometry>
+</visual>
+<collision>
+{1}<geometry>{0}</geometry>
+</collision>
+</link>"""
+
+
+@pytest.mark.parametrize(
+    ("shape", "origin", "lost"),
+    [
+        ('<cylinder radius="0.1" length="0.3"/>', "", True),
+        ('<box size="0.1 0.2 0.3"/>', "", True),
+        ('<sphere radius="0.1"/>', "", False),
+        ('<box size="0.1 0.2 0.3"/>', '<origin xyz="0 0 0"/>', False),
+    ],
+)
+def test_equal_shapes_of_a_link_have_the_same_origin(
+    checked: Checked, shape: str, origin: str, lost: bool
+) -> None:
+    found = checked(COPIED.format(shape, origin), "shape-origin-missing")
+
+    assert [p.line for p in found] == [7] * lost
+    added = [edit.text for problem in found for edit in problem.edits]
+    assert added == ['\n<origin rpy="1.5708 0 0"/>'] * lost
+    other = COPIED.replace("1.5708", "0.2").format(shape, origin)
+    assert checked(other, "shape-origin-missing") == []
+
+
+def test_a_macro_puts_the_block_into_both_shapes(checked: Checked) -> None:
+    block = '<xacro:insert_block name="pose"/>'
+    body = f"""<xacro:macro name="body" params="*pose">
+<visual>{block}<geometry><box size="1 2 3"/></geometry></visual>
+<collision><geometry><box size="1 2 3"/></geometry></collision>
+</xacro:macro>
+<link name="a"><xacro:body><origin rpy="1.5708 0 0"/></xacro:body></link>"""
+
+    (problem,) = checked(body, "shape-origin-missing", "r.urdf.xacro")
+    assert (problem.line, problem.hint) == (4, f"add {block} into it")

@@ -20,6 +20,7 @@ from sambot_viz.checks.model.falling import falls_over
 from sambot_viz.checks.model.flat_wheels import flat_wheels
 from sambot_viz.checks.model.ground import wheels_off_the_ground
 from sambot_viz.checks.model.lengths import lengths_in_another_unit
+from sambot_viz.checks.model.lost_origins import lost_origins
 from sambot_viz.checks.model.low_casters import low_casters
 from sambot_viz.checks.model.masses import masses_in_grams
 from sambot_viz.checks.model.mesh_files import (
@@ -73,6 +74,7 @@ RULES: tuple[Rule, ...] = (
     limits_in_degrees,
     rpy_in_degrees,
     sizes_not_positive,
+    lost_origins,
     lengths_not_in_metres,
     unusable_meshes,
     meshes_of_wrong_size,
@@ -110,6 +112,7 @@ AROUND: tuple[Rule, ...] = (launch_text_as_yaml, names_that_must_meet)
 _CAUSES: tuple[Rule, ...] = (
     limits_in_degrees,
     rpy_in_degrees,
+    lost_origins,
     lengths_not_in_metres,
     wheels_across_their_axles,
     flat_wheels,

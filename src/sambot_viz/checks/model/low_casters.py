@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sambot_viz.checks.clues import guess
-from sambot_viz.checks.model.axles import axle_of
+from sambot_viz.checks.model.axles import (
+    axle_of,
+    wheels_across_their_axles,
+    wheels_in_one_place,
+)
+from sambot_viz.checks.model.ground import wheels_off_the_ground
+from sambot_viz.checks.model.slips import sizes_not_positive
 from sambot_viz.checks.rule import Subject, listed
 from sambot_viz.checks.wheel_clues import lows, wheel_clues
 from sambot_viz.edits import negate_part, overwrite_attribute, source_of, write_part
@@ -23,6 +29,15 @@ _LEAST = 0.015
 """Depth below which a model is only inexact [m]."""
 
 
+_CAUSES = (
+    sizes_not_positive,
+    wheels_across_their_axles,
+    wheels_in_one_place,
+    wheels_off_the_ground,
+)
+"""Rules whose findings say why the wheels may be at another height."""
+
+
 def low_casters(subject: Subject) -> Iterator[Problem]:
     """Report casters below wheels that stand on one floor, each by itself.
 
@@ -31,7 +46,7 @@ def low_casters(subject: Subject) -> Iterator[Problem]:
     """
     robot = subject.robot
     found = _floor(robot)
-    if found is None:
+    if found is None or any(cause for rule in _CAUSES for cause in rule(subject)):
         return
     floor, height, wheels = found
     carriers = {j.parent for j in robot.joints.values() if j.child in wheels}
