@@ -101,6 +101,7 @@ from sambot_viz.checks.around.launch_files.kinds import (
     remappings_without_pairs,
     reversed_remappings,
 )
+from sambot_viz.checks.around.launch_files.managed import unmanaged_nodes
 from sambot_viz.checks.around.launch_files.members import (
     misspelt_members,
     names_before_values,
@@ -388,6 +389,7 @@ OF_FILES: tuple[Check, ...] = (
     undeclared_arguments,
     late_declarations,
     unknown_containers,
+    unmanaged_nodes,
     includes_without_argument,
     misplaced_includes,
     unknown_programs,
