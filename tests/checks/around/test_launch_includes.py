@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from manifests import written
 
 from sambot_viz.checks import check
 from sambot_viz.edits import apply_edits
@@ -119,3 +120,34 @@ def test_arguments_and_packages_of_others(package: Path, name: str) -> None:
     more = f'    get_package_share_directory("{name}")\n    return'
     launch.write_text(text.replace("    return", more, 1))
     assert [p for p in check(package) if p.severity != "info"] == []
+
+
+SLAM = """
+import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    slam = os.path.join(
+        get_package_share_directory("slam_toolbox"), "launch", "online_async_launch.py")
+    return LaunchDescription([
+        Node(package="{}", executable="create"),
+        IncludeLaunchDescription(
+            slam, launch_arguments={{"params_file": "slam.yaml"}}.items()),
+    ])
+"""
+
+
+@pytest.mark.parametrize(
+    ("beside", "found"), [("ros_gz_sim", ["write slam_params_file"]), ("other", [])]
+)
+def test_an_argument_of_foxy_was_right_without_the_new_gazebo(
+    tmp_path: Path, beside: str, found: list[str]
+) -> None:
+    manifest = "<package><name>r</name></package>"
+    files = {"package.xml": manifest, "launch/slam.launch.py": SLAM.format(beside)}
+    problems = check(written(tmp_path, files))
+    hints = [p.hint for p in problems if p.code == "launch-argument-unknown"]
+    assert hints == found
