@@ -113,12 +113,7 @@ CASES = [
     (PYTHON, "'--log-level',\n", "'--log-level'\n", "a comma is missing at the end"),
     (PYTHON, "('a', 'b')", "['a', 'b']", "remappings are a list of tuples"),
     (PYTHON, "[('a', 'b')]", "('a', 'b')", "remappings are a list of tuples"),
-    (
-        PYTHON,
-        "[{'use_sim_time': True}, colours]",
-        "{'use_sim_time': True}",
-        "this is a dict",
-    ),
+    (PYTHON, "[{'use_sim_time': True}, colours]", "{'use_sim_time': True}", "a dict"),
     (PYTHON, "f'colours", "'colours", "has no f before its quotation mark"),
     (PYTHON, "time': True", "time', True", "use_sim_time gets no value"),
     (

@@ -121,6 +121,10 @@ from sambot_viz.checks.around.launch_files.paths import (
     missing_plugin_files,
     misspelt_endings,
 )
+from sambot_viz.checks.around.launch_files.processes import (
+    started_again,
+    targets_without_process,
+)
 from sambot_viz.checks.around.launch_files.programs import unknown_programs
 from sambot_viz.checks.around.launch_files.substitutions import (
     substitutions_for_texts,
@@ -376,6 +380,8 @@ OF_FILES: tuple[Check, ...] = (
     joined_paths,
     handlers_that_wait,
     texts_for_actions,
+    targets_without_process,
+    started_again,
     plain_handlers,
     periods,
     misspelt_time,
