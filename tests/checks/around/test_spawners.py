@@ -19,6 +19,7 @@ SPAWN = """\
                 arguments=[{name}, "cart", "-topic", "robot_description", "-z", "-1"],
             ),
 """
+EXECUTE = "    ExecuteProcess,\n    SetEnvironmentVariable,\n"
 OF_GZ = {"package": "'ros_gz_sim'", "program": "'create'", "name": "'-name'"}
 OF_CLASSIC = {
     "package": '"gazebo_ros"',
@@ -87,3 +88,29 @@ def test_the_path_of_a_world_is_not_its_name(package: Path) -> None:
     assert problem.hint == "write 'room'"
     made = edited_files(problem.edits)[str(path)].decode()
     assert made == right.replace('"room.sdf"', "'room.sdf'")
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("GZ_SIM_RESOURCE_PATH", "GAZEBO_MODEL_PATH"),
+        ("GZ_SIM_SYSTEM_PLUGIN_PATH", "GAZEBO_PLUGIN_PATH"),
+    ],
+)
+@pytest.mark.parametrize(
+    "line", ['os.environ["{}"] = share', 'SetEnvironmentVariable("{}", share)']
+)
+def test_a_variable_of_the_other_gazebo_is_exchanged(
+    package: Path, right: str, wrong: str, line: str
+) -> None:
+    path = package / LAUNCH
+    text = path.read_text().replace("    ExecuteProcess,\n", EXECUTE)
+    first = "    return LaunchDescription(\n        ["
+    before = f"    {line}\n{first}" if "environ" in line else f"{first}\n    {line},"
+    path.write_text(text.replace(first, before.format(wrong)))
+    (problem,) = check(package)
+    assert (problem.code, problem.hint) == ("gazebo-both", f"write {right}")
+    made = edited_files(problem.edits)[str(path)].decode()
+    assert made == text.replace(first, before.format(right))
+    path.write_text(made.replace("import os\n", f"import os\n\nNAMES = ['{wrong}']\n"))
+    assert check(package) == []

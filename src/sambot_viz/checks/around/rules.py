@@ -28,7 +28,7 @@ from sambot_viz.checks.around.frames.odometry import (
     shared_frames,
     unpublished_odometry,
 )
-from sambot_viz.checks.around.gazebo.both import started_twice
+from sambot_viz.checks.around.gazebo.both import started_twice, variables_of_the_other
 from sambot_viz.checks.around.gazebo.drives import wrong_sides_of_controllers
 from sambot_viz.checks.around.gazebo.generations import (
     elements_of_the_other,
@@ -422,6 +422,7 @@ OF_FILES: tuple[Check, ...] = (
     unknown_bridge_types,
     different_clocks,
     started_twice,
+    variables_of_the_other,
     missing_files,
     misspelt_endings,
     unread_parameters,

@@ -6,12 +6,18 @@ import ast
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.files.gazebo import Generation
-from sambot_viz.checks.around.gazebo.starts import NAMES, PACKAGES, Start, starts
+from sambot_viz.checks.around.gazebo.starts import (
+    NAMES,
+    PACKAGES,
+    Start,
+    may_start,
+    starts,
+)
 from sambot_viz.checks.around.launching.launch_file import LaunchFile
 from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.edits import together
+from sambot_viz.edits import together, write
 from sambot_viz.errors import Fix, Problem
 
 _SPAWNERS: dict[Generation, tuple[str, str]] = {
@@ -23,6 +29,19 @@ _WAYS: dict[Generation, str] = {
     "classic": "gazebo.launch.py and spawn_entity.py of gazebo_ros for Classic",
     "gz": "gz_sim.launch.py and create of ros_gz_sim for Gazebo",
 }
+
+_VARIABLES: tuple[dict[Generation, tuple[str, ...]], ...] = (
+    {
+        "classic": ("GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH"),
+        "gz": ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH"),
+    },
+    {
+        "classic": ("GAZEBO_PLUGIN_PATH",),
+        "gz": ("GZ_SIM_SYSTEM_PLUGIN_PATH", "IGN_GAZEBO_SYSTEM_PLUGIN_PATH"),
+    },
+)
+"""Variables of the environment with the same purpose, the last ones of Fortress."""
+_OF_FORTRESS = "ign"
 
 
 def started_twice(around: Surroundings) -> Iterator[Problem]:
@@ -57,6 +76,50 @@ def _both(around: Surroundings) -> Iterator[tuple[LaunchFile, Start, Start]]:
             classic, gz = first["classic"], first["gz"]
             pair = (gz, classic) if _is_alone(around, gz) else (classic, gz)
             yield launch, *pair
+
+
+def variables_of_the_other(around: Surroundings) -> Iterator[Problem]:
+    """Report variables of the environment that only the other Gazebo reads."""
+    for launch in around.launches:
+        begun = {start.generation: start for start in reversed(starts(launch))}
+        if len(begun) != 1 or len(may_start(launch)) != 1:
+            continue
+        (start,) = begun.values()
+        kind = start.generation
+        for node in _variables_set(launch):
+            said = str(node.value)
+            for names in _VARIABLES:
+                known = {name for each in names.values() for name in each}
+                if said in known and launch.strings.isdisjoint(names[kind]):
+                    right = names[kind][-1 if _OF_FORTRESS in start.what else 0]
+                    place = launch.place(node)
+                    yield Problem.at(
+                        place,
+                        "warning",
+                        "gazebo-both",
+                        f"only the other Gazebo reads {said}, and this launch file "
+                        f"starts {NAMES[kind]} ({start.what}, "
+                        f"{where(start.place, place)}): it does not find what is there",
+                        write(place, said, right),
+                    )
+
+
+def _variables_set(launch: LaunchFile) -> Iterator[ast.Constant]:
+    """Yield the names of the variables of the environment that a launch file sets."""
+    for call in launch.called("AppendEnvironmentVariable", "SetEnvironmentVariable"):
+        given = call.given("name", 0)
+        if isinstance(given, ast.Constant):
+            yield given
+    for node in ast.walk(launch.tree):
+        match node:
+            case ast.Subscript(
+                value=ast.Attribute(attr="environ") | ast.Name(id="environ"),
+                slice=ast.Constant() as name,
+                ctx=ast.Store(),
+            ):
+                yield name
+            case _:
+                pass
 
 
 def _is_alone(around: Surroundings, start: Start) -> bool:

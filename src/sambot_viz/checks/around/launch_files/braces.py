@@ -18,8 +18,7 @@ _BRACED = re.compile(r"(?<![${])\{([A-Za-z_]\w*)\}(?!\})")
 _LITERAL = re.compile(r"(['\"])[^'\"\\]*\1")
 _JOINS = frozenset({"join", "PathJoinSubstitution", "get_package_share_directory"})
 _NODES = frozenset(
-    "ComposableNode ExecuteProcess LifecycleNode LogInfo Node SetEnvironmentVariable "
-    "TextSubstitution".split()
+    "ComposableNode ExecuteProcess LifecycleNode LogInfo Node TextSubstitution".split()
 )
 _LATER = ".substitutions"
 """Modules whose values launch finds after Python has put the texts together."""
