@@ -133,6 +133,15 @@ Copied = Callable[[str], Path]
             'data_type: "LaserScan"',
         ),
         (
+            "parameter-value",
+            'data_type: "LaserScan"',
+            'data_type: "sensor_msgs/LaserScan"',
+            27,
+            "local_costmap knows only LaserScan and PointCloud2: it stops",
+            "write LaserScan",
+            'data_type: "LaserScan"',
+        ),
+        (
             "frame-slash",
             "robot_base_frame: base_link",
             "robot_base_frame: /base_link",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator
 from itertools import pairwise
@@ -235,7 +236,9 @@ def _word(
     said, place = parameter.fact.value, parameter.value_place
     words = [word for word in known.words if word != _OTHERS]
     lower = {word.lower(): word for word in words}
-    near = lower.get(said.lower()) or nearest(said, words, _LIKENESS)
+    # A class or a message may have its package before it.
+    last = re.split(r"[/:.]", said)[-1].lower()
+    near = lower.get(said.lower()) or lower.get(last) or nearest(said, words, _LIKENESS)
     if _OTHERS in known.words and (near is None or said in part.sections):
         return
     follows = "stops with an error" if known.strict else "does not use this value"
