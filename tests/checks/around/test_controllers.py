@@ -236,3 +236,26 @@ def test_the_only_controller_that_none_asks_for_is_the_one_of_the_class(
     other = package / "launch/other.launch.py"
     other.write_text(LAUNCH, "utf-8")
     assert [problem.hint for problem in check(package / "r.urdf")] == found
+
+
+def test_the_file_of_the_model_has_the_controllers(package: Path) -> None:
+    launch = package / "launch/robot.launch.py"
+    launch.write_text(LAUNCH.replace('"wheels"', '"lift"'), "utf-8")
+    plugin = (
+        '<gazebo><plugin filename="gz_ros2_control-system" name="control">'
+        "<parameters>/share/r/config/controllers.yaml</parameters></plugin></gazebo>"
+    )
+    model = MODEL.replace("</robot>", f"{plugin}</robot>")
+    (package / "r.urdf").write_text(model, "utf-8")
+    problems = check(package / "r.urdf")
+    hints = [p.hint for p in problems if p.code == "controller-unknown"]
+    assert hints == ["write wheels"]
+
+
+def test_each_file_is_that_of_one_robot(package: Path) -> None:
+    other = package / "config/other.yaml"
+    other.write_text(YAML, "utf-8")
+    file = package / "config/controllers.yaml"
+    file.write_text(YAML.replace("DiffDriveC", "DiffDriveK"), "utf-8")
+    (problem,) = check(package / "r.urdf")
+    assert (problem.file, problem.line) == (str(file), 4)

@@ -73,16 +73,18 @@ def undeclared_controllers(around: Surroundings) -> Iterator[Problem]:
         asked = {name for each in beside for name, _ in _asked(each)}
         free = [name for name in given if name not in asked]
         inside = {key.rpartition("/")[2] for key in own.nodes} if own else set[str]()
+        lost = asked.difference(known, given, inside)
         for name, place in _asked(node):
-            if name in known or name in given or name in inside:
+            if name not in lost:
                 continue
             near = _meant(name, given)
-            only = free[0] if near is None and len(free) == 1 else None
+            is_single = near is None and len(free) == len(lost) == 1
+            only = free[0] if is_single else None
             if only is not None and (own or _is_only(around, name, given[only], only)):
                 near = only
             if near is not None:
                 yield _undeclared(name, near, given[near], place, of_file=bool(own))
-    yield from _unread_sections(around, every)
+    yield from _unread_sections(around)
 
 
 def _undeclared(
@@ -124,21 +126,20 @@ def _own_parameters(around: Surroundings, node: RunningNode) -> YamlFile | None:
 def _is_only(around: Surroundings, name: str, right: Parameter, free: str) -> bool:
     """Return whether a name can only mean the one controller that none asks for.
 
-    The names share a word, or the name has one of the class, and no unknown node is a
-    controller manager with others.
+    The model names the file with this controller, or the names share a word, or one
+    with the class, and no unknown node is a controller manager with others.
     """
-    said = {*free.split("_"), *right.fact.value.partition("/")[0].split("_")}
     sections = {key.rpartition("/")[2] for f in around.yaml_files for key in f.nodes}
     of_model = {
         posixpath.basename(fact.value)
         for plugin in around.plugins
         for fact in plugin.all("parameters")
     }
-    is_whole = around.running.is_whole
-    is_whole |= posixpath.basename(right.place.file) in of_model
-    return bool({*name.split("_")} & said - _GENERIC) and (
-        is_whole and name not in sections
-    )
+    said = {*free.split("_"), *right.fact.value.partition("/")[0].split("_")}
+    shares = bool({*name.split("_")} & said - _GENERIC)
+    is_of_model = posixpath.basename(right.place.file) in of_model
+    is_it = is_of_model or (shares and around.running.is_whole)
+    return is_it and name not in sections
 
 
 def options_without_value(around: Surroundings) -> Iterator[Problem]:
@@ -180,19 +181,17 @@ def _fitting(
     return found[0] if len(found) == 1 else None
 
 
-def _unread_sections(
-    around: Surroundings, declared: dict[str, Parameter]
-) -> Iterator[Problem]:
+def _unread_sections(around: Surroundings) -> Iterator[Problem]:
     """Report parameters for a controller that no controller manager knows."""
     for file in around.yaml_files:
-        own = {n: p for n, p in declared.items() if p.place.file == file.shown}
+        own = controller_types([file])
         sections = {key.rpartition("/")[2] for key in file.nodes}
         free = [name for name in own if name not in sections]
         for key in file.nodes:
             name = key.rpartition("/")[2]
             if name in own or name == _MANAGER or "*" in name:
                 continue
-            near = _meant(name, free) or _fitting(file.of(key), free, declared)
+            near = _meant(name, free) or _fitting(file.of(key), free, own)
             place = file.keys.get(key, file.nodes[key])
             if near is not None:
                 yield Problem.at(
@@ -210,10 +209,12 @@ def unknown_controllers(around: Surroundings) -> Iterator[Problem]:
     """Report classes of controllers that their package does not have."""
     classes = vocabulary("controllers")
     packages = {name.partition("/")[0] for name in classes}
-    for parameter in declared_controllers(around).values():
+    # Each robot may have its own file with controllers of the same names.
+    files = (controller_types([file]) for file in around.yaml_files)
+    for parameter in (one for found in files for one in found.values()):
         kind = parameter.fact.value
         package = kind.partition("/")[0]
-        # Other packages have their own controllers.
+        # Other packages have their own.
         right = next((name for name in packages if is_one_slip(package, name)), None)
         alike = [name for name in classes if name.startswith(f"{right}/")]
         near = nearest(kind, alike, _LIKE_CLASS) if kind not in classes else None

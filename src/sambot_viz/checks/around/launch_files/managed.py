@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 import yaml
 
@@ -30,21 +30,18 @@ def unmanaged_nodes(around: Surroundings) -> Iterator[Problem]:
     The node that is meant starts, and no manager has it in its list.
     """
     managers = [(n, p) for n, p in _managers(around) if n.starts != "no"]
-    listed = {name for _, given in managers for name in given.values or ()}
-    if not managers or any(given.values is None for _, given in managers):
-        return
     names = {node.name or node.executable for node in around.running.nodes}
-    free = {
-        node.name: node
-        for node in around.running.started
-        if node.package.startswith(_OF_NAV2) and node.package not in _PLAIN
-        if node.name and node.name not in listed and node.starts == "yes"
-    }
     done: set[Place] = set()
     for manager, given in managers:
+        beside = [p for n, p in managers if n.launch == manager.launch]
+        free = _free(manager, beside, around)
         lost = [name for name in given.values or () if name not in names]
-        for name in lost if "" not in names else ():
-            near = _meant(name, lost, manager, free, around)
+        if any(each.values is None for each in beside):
+            continue
+        is_whole = around.running.is_whole and "" not in names
+        for name in lost:
+            is_only = is_whole and len(lost) == len(free) == 1
+            near = nearest(name, free, _LIKENESS) or (min(free) if is_only else None)
             place = _place_of(name, given, manager, around)
             if near is None or place in done:
                 continue
@@ -68,18 +65,19 @@ def _managers(around: Surroundings) -> Iterator[tuple[RunningNode, GivenParamete
             yield node, given
 
 
-def _meant(
-    name: str,
-    lost: Sequence[str],
-    manager: RunningNode,
-    free: Mapping[str, RunningNode],
-    around: Surroundings,
-) -> str | None:
-    """Return the similar node without a manager, or the only one beside the manager."""
-    near = nearest(name, free, _LIKENESS)
-    beside = [n.name for n in free.values() if n.launch == manager.launch]
-    is_only = len(lost) == len(beside) == 1 and around.running.is_whole
-    return near or (beside[0] if is_only else None)
+def _free(
+    manager: RunningNode, lists: Sequence[GivenParameter], around: Surroundings
+) -> dict[str, RunningNode]:
+    """Return the nodes of Nav2 that start with a manager and are in no list there."""
+    listed = {name for given in lists for name in given.values or ()}
+    is_launched = manager.launch in around.running.launches
+    return {
+        node.name: node
+        for node in around.running.started
+        if node.package.startswith(_OF_NAV2) and node.package not in _PLAIN
+        if node.name and node.name not in listed
+        if node.launch == manager.launch or not is_launched
+    }
 
 
 def _place_of(
