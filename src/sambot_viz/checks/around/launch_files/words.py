@@ -131,10 +131,19 @@ def unknown_elements_of_launch(around: Surroundings) -> Iterator[Problem]:
                 continue
             is_xml = not root.place.file.endswith((".yaml", ".yml"))
             for element in root.iter():
-                yield from misspelt(_attributes(element, is_xml), _ATTRIBUTE)
+                attribute, inner = (
+                    _in(kind, is_xml) for kind in (_ATTRIBUTE, _ELEMENT)
+                )
+                yield from misspelt(_attributes(element, is_xml), attribute)
                 yield from _beside_file(element, is_xml)
                 yield from misspelt(_substitutions(element), _SUBSTITUTION)
-                yield from misspelt(_children(element, is_xml), _ELEMENT)
+                yield from misspelt(_children(element, is_xml), inner)
+
+
+def _in(kind: WordKind, is_xml: bool) -> WordKind:
+    """Return a kind of words with a message for XML, or for YAML without brackets."""
+    plain = kind.message.replace("<", "").replace(">", "")
+    return kind if is_xml else kind._replace(message=plain)
 
 
 def _used(element: Element) -> Iterator[str]:
