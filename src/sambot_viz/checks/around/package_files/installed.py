@@ -6,6 +6,7 @@ import ast
 import posixpath
 from collections.abc import Iterator
 from functools import partial
+from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from sambot_viz.checks.around.files.cmake import CMakeCommand, CMakeFile, CMakeWord
@@ -75,6 +76,11 @@ def _is_launch(path: str, user: Place, installed: Installed) -> bool:
     return itself and any(t.startswith(head) for t, _ in installed.targets(path))
 
 
+def _named(user: Place, here: Place | None) -> str:
+    """Name the user of a file for a sentence; a launch file uses itself as a whole."""
+    return PurePath(user.file).name if user.line == 1 else where(user, here)
+
+
 def _used(around: Surroundings) -> Iterator[tuple[str, Place]]:
     """Yield the used files of the package, each with a user."""
     for launch in around.launches:
@@ -113,7 +119,7 @@ def _nowhere(
         user = next(iter(paths.values()))
         names = listed(paths) if partly else f"the folder {folder}"
         are = "are" if partly and len(paths) > 1 else "is"
-        by = where(user, installed.place)
+        by = _named(user, installed.place)
         needs = (
             f"{by} is used from the installed package"
             if user.line == 1
@@ -195,9 +201,9 @@ def _empty(
     place = setup.place(glob)
     user = next(iter(paths.values()))
     used = (
-        f"{where(user, place)} is used from the installed package"
+        f"{_named(user, place)} is used from the installed package"
         if user.line == 1
-        else f"{where(user, place)} looks for {listed(paths, 2)}"
+        else f"{_named(user, place)} looks for {listed(paths, 2)}"
     )
     return Problem.at(
         place,
@@ -221,7 +227,7 @@ def _at_wrong_place(
     place, (path, user) = piece.place, next(iter(paths.items()))
     folders = list(dict.fromkeys(p.partition("/")[0] for p in paths))
     are, them = ("s", "them") if len(folders) > 1 else ("", "it")
-    by = where(user, place)
+    by = _named(user, place)
     needs = f"{by} is used from" if user.line == 1 else f"{by} looks for {them} in"
     share = f"share/{around.files.name}"
     above = posixpath.dirname(path)
