@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from edited import edited_files
 
 from sambot_viz.checks import check
 
@@ -216,3 +217,11 @@ def test_what_is_not_started_needs_no_program(copied: Copied) -> None:
     assert check(package / MODEL) == []
     edit(launch, [("            # spare,\n", "            spare,\n")])
     assert [p.code for p in check(package / MODEL)] == ["launch-program-unknown"]
+
+
+def test_the_topics_of_a_bridge_get_their_name_by_an_edit(copied: Copied) -> None:
+    package = copied("gz")
+    edit(package / LAUNCH, [(GZ_BRIDGE, AS_PARAMETERS)])
+    (problem,) = [p for p in check(package) if p.code == "launch-bridge-config"]
+    made = edited_files(problem.edits)[str(package / LAUNCH)].decode()
+    assert "parameters=[{'config_file': topics}]" in made

@@ -400,15 +400,6 @@ MISTAKES = [
         (BRIDGE, '- ros_topic_name: "/tf"'),
         (EKF, "publish_tf: true"),
         "delete this entry",
-        fixed=(
-            (
-                BRIDGE,
-                '\n- ros_topic_name: "/tf"\n  gz_topic_name: "/tf"\n'
-                '  ros_type_name: "tf2_msgs/msg/TFMessage"\n'
-                '  gz_type_name: "gz.msgs.Pose_V"\n  direction: GZ_TO_ROS\n',
-                "",
-            ),
-        ),
     ),
     one(
         "transform-twice",
@@ -672,7 +663,6 @@ MISTAKES = [
         (LAUNCH, 'os.path.join(share, "config/ekf.yaml"),'),
         (EKF, "frequency: 30.0"),
         "write name='ekf_filter_node'",
-        fixed=((LAUNCH, 'name="ekf_filter_node_odom"', 'name="ekf_filter_node"'),),
     ),
     one(
         "launch-world-name",
@@ -941,6 +931,9 @@ def test_a_mistake_is_found_at_both_places_and_its_fix_leaves_nothing(
     line = line_of(package / file, text) if file else 0
     same = problem.file == str(package / file)
     name = f"line {line}" if same else f"{Path(file).name} line {line}"
+    if line == 1 and not same:
+        # A launch file uses itself as a whole.
+        name = Path(file).name
     assert (name if line else file) in problem.message
     assert mistake.advice in problem.hint
     edits = [edit for problem in problems for edit in problem.edits]

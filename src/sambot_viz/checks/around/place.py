@@ -100,6 +100,34 @@ def moved(place: Place, blanks: int, items: int = 1) -> Fix:
     return together(hint, *fixes)
 
 
+def without_item(place: Place, hint: str) -> Fix:
+    """Return the fix that deletes an entry of a list of YAML, with its lines.
+
+    Args:
+        place: a line of the entry.
+        hint: the hint.
+    """
+    source = source_of(place.file)
+    if source is None or not place.file.endswith((".yaml", ".yml")):
+        return Fix(hint)
+    lines = source.text.split("\n")
+    above = range(place.line, 0, -1)
+    first = next((n for n in above if lines[n - 1].lstrip()[:2] == "- "), 0)
+    depth = len(lines[first - 1]) - len(lines[first - 1].lstrip())
+    inner = [place.line, first]
+    for number, line in enumerate(lines[first:], first + 1):
+        text = line.strip()
+        if text and text[0] != "#" and len(line) - len(line.lstrip()) <= depth:
+            break
+        inner += [number] if text and text[0] != "#" else []
+    last = max(inner)
+    while last < len(lines) - 1 and not lines[last].strip():
+        last += 1
+    begin, end = Place(place.file, first, 1), Place(place.file, last + 1, 1)
+    is_certain = 0 < first and last < len(lines)
+    return write_between(begin, end, "", hint) if is_certain else Fix(hint)
+
+
 def key_place(place: Place, name: str) -> Place:
     """Return the place of a key of YAML; that of its mapping where it is not found."""
     source, column = source_of(place.file), (place.column or 1) - 1

@@ -19,7 +19,7 @@ from sambot_viz.checks.around.parameters.navigation import (
     filters,
     is_open,
 )
-from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.place import where, without_item
 from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.exchanged_joint import joint_of_part
@@ -187,7 +187,7 @@ def moved_twice(around: Surroundings) -> Iterator[Problem]:
                 f"({where(other, told.place)}): the robot jumps between both",
                 write(told.place, told.value, "false")
                 if plugin.generation == "classic"
-                else "delete this entry of the bridge",
+                else without_item(told.place, "delete this entry of the bridge"),
             )
 
 

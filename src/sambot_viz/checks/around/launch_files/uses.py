@@ -14,7 +14,7 @@ from sambot_viz.checks.around.gazebo.spawning import spawned_with
 from sambot_viz.checks.around.launch_files.code import undefined_names
 from sambot_viz.checks.around.launching.launch_file import NODES, LaunchFile
 from sambot_viz.checks.around.launching.python_parts import Table
-from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write
@@ -90,6 +90,8 @@ def bridges_as_parameters(around: Surroundings) -> Iterator[Problem]:
             if launch.text(call, "executable") != "parameter_bridge":
                 continue
             for item, node in call.listing("parameters").items:
+                right = f"{{'config_file': {ast.unparse(node)}}}"
+                right = f"[{right}]" if node is call.given("parameters") else right
                 given_path = launch.values.said(item) or ""
                 path = given_path.removeprefix(SHARE).partition("/")[2]
                 if around.shown(given_path) in lists:
@@ -99,7 +101,7 @@ def bridges_as_parameters(around: Surroundings) -> Iterator[Problem]:
                         "launch-bridge-config",
                         f"{path} is a list of topics and no parameters: "
                         "parameter_bridge stops with an error",
-                        f"write {{'config_file': {ast.unparse(node)}}}",
+                        rewritten(node, launch.shown, right),
                     )
 
 

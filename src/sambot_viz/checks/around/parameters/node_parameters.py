@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import posixpath
 from collections.abc import Iterator
 
@@ -14,7 +15,7 @@ from sambot_viz.checks.around.running.system import GivenFile, RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.edits import write
-from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.errors import Fix, Place, Problem, nearest
 
 
 def unread_parameters(around: Surroundings) -> Iterator[Problem]:
@@ -36,7 +37,7 @@ def unread_parameters(around: Surroundings) -> Iterator[Problem]:
             continue
         alone = len({node.path for node, _ in users}) == 1
         if alone and is_named and node.starts == "yes" and _is_called(node):
-            yield _unread(node, place, file)
+            yield _unread(around, node, place, file)
 
 
 def _text_of(around: Surroundings, shown: str) -> str:
@@ -56,7 +57,9 @@ def _is_called(node: RunningNode) -> bool:
     return named and not is_container
 
 
-def _unread(node: RunningNode, given: Place, file: YamlFile) -> Problem:
+def _unread(
+    around: Surroundings, node: RunningNode, given: Place, file: YamlFile
+) -> Problem:
     own = [key for key in file.nodes if key.rpartition("/")[2] == node.name]
     near = next(iter(own), None) or nearest(node.name, file.nodes, likeness=0.0)
     key = near or next(iter(file.nodes))
@@ -79,8 +82,18 @@ def _unread(node: RunningNode, given: Place, file: YamlFile) -> Problem:
         "launch-parameters-unread",
         f"the node {name} reads none of these parameters: they are for {key} "
         f"({where(file.nodes[key], given)})",
-        write(node.place, node.name, bare, hint=hint),
+        _renamed(around, node, bare, hint),
     )
+
+
+def _renamed(around: Surroundings, node: RunningNode, right: str, hint: str) -> Fix:
+    """Return the fix that gives a node another name, where a text says its name."""
+    for launch in around.launches:
+        for call in launch.called() if launch.shown == node.place.file else ():
+            given = call.given("name")
+            if call.place == node.place and isinstance(given, ast.Constant):
+                return write(launch.place(given), node.name, right, hint=hint)
+    return write(node.place, node.name, right, hint=hint)
 
 
 def parameters_left_out(around: Surroundings) -> Iterator[Problem]:
