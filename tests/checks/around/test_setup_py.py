@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from edited import edited_files
 
 from sambot_viz.checks import check
 from sambot_viz.edits import apply_edits
@@ -325,6 +326,15 @@ def test_the_file_that_names_the_package_is_missing(package: Path) -> None:
     other.unlink()
     (problem,) = found(package)
     assert problem.hint == "make an empty file resource/cart_description"
+
+
+def test_the_slash_before_the_name_of_the_package_is_added(package: Path) -> None:
+    right = "('share/' + package_name, ['package.xml'])"
+    assert right in TEXT
+    edit(package, (SETUP, right, right.replace("share/", "share")))
+    (problem,) = found(package)
+    assert (problem.code, problem.hint) == ("setup-file-missing", "write 'share/'")
+    assert edited_files(problem.edits)[str(package / SETUP)].decode() == TEXT
 
 
 def test_a_folder_among_the_files_stops_the_build(package: Path) -> None:

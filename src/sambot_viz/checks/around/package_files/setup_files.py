@@ -94,16 +94,27 @@ def _elsewhere(mark: str, setup: SetupFile) -> Problem | None:
         return None
     entry, path = entries[0]
     folder = entry.node.elts[0] if isinstance(entry.node, ast.Tuple) else entry.node
-    hint = f"write {right}"
     return Problem.at(
         setup.place(folder),
         "warning",
         "setup-file-missing",
         f"{path} is installed to {entry.target}, but ROS finds the package by {mark}",
-        rewritten(folder, setup.shown, f"'{right}'", hint)
-        if isinstance(folder, ast.Constant)
-        else hint,
+        _at_right_place(folder, entry.target or "", right, setup),
     )
+
+
+def _at_right_place(folder: ast.expr, wrong: str, right: str, setup: SetupFile) -> Fix:
+    """Return the fix that writes another folder, or the slash that it lacks."""
+    hint = f"write {right}"
+    match folder:
+        case ast.Constant():
+            return rewritten(folder, setup.shown, f"'{right}'", hint)
+        case ast.BinOp(left=ast.Constant(value=str(first)) as left) if (
+            f"{first}/{wrong.removeprefix(first)}" == right
+        ):
+            return rewritten(left, setup.shown, f"'{first}/'")
+        case _:
+            return Fix(hint)
 
 
 def unfound_modules(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
