@@ -69,7 +69,14 @@ def test_several_uses_are_one_finding(package: Path) -> None:
     here = '"use_sim_time": use_sim_time'
     path.write_text(text.replace(here, f'"use_sim_time": {use}'))
     (problem,) = check(package)
-    assert "is not declared (lines 32 and 41 too)" in problem.message
+    assert "is not declared (line 41 too)" in problem.message
+
+
+def test_an_unused_variable_asks_for_no_argument(package: Path) -> None:
+    path = package / LAUNCH
+    text = path.read_text().replace("use_sim_time = L", "unused = L")
+    path.write_text(text.replace(": use_sim_time", ": True"))
+    assert "launch-argument-unknown" not in {p.code for p in check(package)}
 
 
 def test_another_file_may_set_the_argument(package: Path) -> None:

@@ -70,6 +70,11 @@ def test_the_spawner_of_the_other_gazebo_is_exchanged(
     assert check(package / MODEL) == []
 
 
+def test_gflags_take_a_dash_for_an_underscore(package: Path) -> None:
+    spawn(package, OF_GZ | {"name": "'--allow-renaming', '-name'"})
+    assert check(package / MODEL) == []
+
+
 def test_a_package_for_both_has_both_ways(package: Path) -> None:
     second = spawn(package, OF_CLASSIC).replace("GzServer(world_sdf_file=world),", "")
     (package / "launch/second.launch.py").write_text(second)

@@ -85,8 +85,8 @@ def _of_python(launch: LaunchFile) -> ArgumentsOfFile:
     declared = _declared(launch)
     used = [
         (launch.text(call, "variable_name", 0) or "", call.place)
-        for call in launch.called("LaunchConfiguration")
-        if call.given("default", 1) is None
+        for call in launch.in_use
+        if call.name == "LaunchConfiguration" and call.given("default", 1) is None
     ]
     includes = list(launch.called("IncludeLaunchDescription"))
     tables = [call.given("launch_arguments") for call in includes]
