@@ -15,7 +15,8 @@ from sambot_viz.errors import Problem
 _OPTION = WordKind(
     "program_options",
     "launch-code",
-    "{owner} has no option {wrong}, but {right}: it stops with an error",
+    "{owner} has no option {wrong}, but {right}: it stops, or uses its default",
+    "warning",
 )
 _WRITTEN = re.compile(r"--?[A-Za-z][\w-]*")
 _FOR_ROS = "--ros-args"
