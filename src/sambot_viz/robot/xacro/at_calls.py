@@ -7,7 +7,6 @@ is called for several parts is not the name of one of these.
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -15,12 +14,13 @@ from pathlib import PurePath
 
 from sambot_viz.edits import SourceFile, Tag, source_of
 from sambot_viz.errors import Place, Problem
-from sambot_viz.files import relative_path
+from sambot_viz.robot.xacro.at_properties import at_properties
 from sambot_viz.robot.xacro.macro_texts import (
     CallText,
     Extent,
     MacroText,
     Written,
+    as_written,
     calls_of,
     macro_around,
     property_value,
@@ -56,21 +56,15 @@ def at_calls(problems: Iterable[Problem], files: Iterable[str]) -> list[Problem]
         files: those of the model, as the user would write them.
     """
     found, read = list(problems), list[tuple[str, SourceFile]]()
+    every = tuple(files)
     for number, problem in enumerate(found):
         spot = _spot(problem)
         if spot is None:
             continue
-        read = read or sources(_as_written(files, problem))
+        read = read or sources(as_written(every, problem))
         moved = _Move(problem, *spot, read).made()
         found[number] = problem if moved is None else moved
-    return found
-
-
-def _as_written(files: Iterable[str], problem: Problem) -> list[str]:
-    """Return paths in the way in which a finding has its own: relative, or not."""
-    if os.path.isabs(problem.file or ""):
-        return list(files)
-    return [relative_path(file) if os.path.isabs(file) else file for file in files]
+    return at_properties(found, every)
 
 
 def _spot(problem: Problem) -> tuple[Written, Tag, MacroText] | None:

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from sambot_viz.edits import Extent, SourceFile, Tag, source_of
-from sambot_viz.errors import Edit, Place
+from sambot_viz.errors import Edit, Place, Problem
+from sambot_viz.files import relative_path
 
 _TAGS = re.compile(r"<!--.*?-->|<(?=(?:xacro:)?\w)", re.DOTALL)
 _PARAMETER = re.compile(r"(?<=[\s\"'])\*{0,2}(\w+)(?::?=('[^']*'|\"[^\"]*\"|\S+))?")
@@ -101,6 +102,13 @@ def sources(files: Iterable[str]) -> list[tuple[str, SourceFile]]:
     return [(file, source) for file, source in found if source is not None]
 
 
+def as_written(files: Iterable[str], problem: Problem) -> list[str]:
+    """Return paths in the way in which a finding has its own: relative, or not."""
+    if os.path.isabs(problem.file or ""):
+        return list(files)
+    return [relative_path(file) if os.path.isabs(file) else file for file in files]
+
+
 def calls_of(name: str, files: Sequence[tuple[str, SourceFile]]) -> list[CallText]:
     """Return the calls of a macro, those with a namespace too: <xacro:ns.name>.
 
@@ -128,16 +136,22 @@ def is_call(tag: str, name: str) -> bool:
     return prefix == "xacro" and (called == name or called.endswith(f".{name}"))
 
 
+def properties_in(
+    files: Sequence[tuple[str, SourceFile]],
+) -> Iterator[tuple[str, Written]]:
+    """Yield the names of properties, and their values as they are written."""
+    for file, source in files:
+        for tag in tags_in(source):
+            named, value = tag.values.get("name"), tag.values.get("value")
+            is_property = source.text[slice(*tag.name)] == "xacro:property"
+            if is_property and named is not None and value is not None:
+                yield source.text[slice(*named)], Written(file, source, value)
+
+
 def property_value(name: str, files: Sequence[tuple[str, SourceFile]]) -> float | None:
     """Return the number that a property is set to; None for others, or for several."""
-    values: list[str] = []
-    for _, source in files:
-        for tag in tags_in(source) if name in source.text else ():
-            named = tag.values.get("name")
-            if source.text[slice(*tag.name)] == "xacro:property" and named is not None:
-                if source.text[slice(*named)] == name:
-                    values.append(source.text[slice(*tag.values.get("value", (0, 0)))])
+    values = [value for named, value in properties_in(files) if named == name]
     try:
-        return float(values[0]) if len(values) == 1 else None
+        return float(values[0].text) if len(values) == 1 else None
     except ValueError:
         return None
