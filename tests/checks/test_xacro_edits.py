@@ -114,6 +114,12 @@ def macro(params: str, radius: str, call: str) -> str:
             '<xacro:arg name="r" default="1"/>\n' + BALL.format("$(arg r)"),
         ),
         (
+            SHIFTED.format("name *origin", BLOCK).replace(
+                'block name="origin"', 'block name="pose"'
+            ),
+            SHIFTED.format("name *origin", BLOCK),
+        ),
+        (
             SHIFTED.format("name origin", BLOCK),
             SHIFTED.format("name *origin", BLOCK),
         ),

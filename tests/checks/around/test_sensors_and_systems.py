@@ -201,3 +201,20 @@ def test_a_sensor_of_ros2_control_needs_no_link(copied: Copied) -> None:
     model.write_text(model.read_text().replace("</robot>", f"{control}\n</robot>"))
 
     assert [p for p in check(model) if p.severity != "info"] == []
+
+
+def test_the_optical_frame_of_a_camera_is_a_link(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>r</name></package>")
+    model = tmp_path / "robot.urdf"
+    text = """<robot name="r"><link name="camera_link"/><link name="camera_optical"/>
+<joint name="j" type="fixed"><parent link="camera_link"/><child link="camera_optical"/>
+<origin rpy="-1.5708 0 -1.5708"/></joint>
+<gazebo reference="camera_link"><sensor name="c" type="camera"><camera>
+<optical_frame_id>camera_optcal</optical_frame_id></camera></sensor></gazebo></robot>
+"""
+    model.write_text(text)
+
+    (problem,) = (p for p in check(model) if p.code == "frame-unknown")
+    assert (problem.line, problem.hint) == (5, "write camera_optical")
+    model.write_text(text.replace("optcal", "optical"))
+    assert not any(p.code == "frame-unknown" for p in check(model))

@@ -105,9 +105,13 @@ def _robot_frames(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
             if bare_frame(fact.value) not in _NO_BASE:
                 yield fact, f"the plugin {plugin.filename}", plugin.link
     for link, sensor in sensors(around.robot.gazebo):
-        for fact in facts(sensor, *SENSOR_FRAMES):
+        named = [(fact, link) for fact in facts(sensor, *SENSOR_FRAMES)]
+        for camera in sensor.find_all("camera"):
+            # The frame of an image is another one than the link of the sensor.
+            named += [(fact, "") for fact in facts(camera, "optical_frame_id")]
+        for fact, its_link in named:
             if bare_frame(fact.value) not in _NO_BASE:
-                yield fact, f"the sensor {sensor.get('name')}", link
+                yield fact, f"the sensor {sensor.get('name')}", its_link
     for one in filters(around):
         if "base_link_frame" in one.given:
             yield one.given["base_link_frame"].fact, one.node, ""

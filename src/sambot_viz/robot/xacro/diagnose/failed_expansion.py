@@ -24,6 +24,7 @@ CORRECT_PATH = "correct the path, or put the file there"
 """What to do about a file that is not there and resembles none."""
 
 _IN_EXPRESSION = r"\$(?:\{[^}\"]*(?:\}|(?=\"))|\([^)\"]*(?:\)|(?=\")))"
+_INSERTED = r"<xacro:insert_block\s+name\s*=\s*[\"']{}[\"']"
 _REPAIRS = {
     "write ** for ^": (r"\^", "**"),
     "add }; an expression cannot contain } before its end": (
@@ -215,11 +216,13 @@ class FailedExpansion:
 
     @property
     def near_block(self) -> str:
-        """A block of the macro with nearly the name: 'write name="…", or '."""
+        """A block of the macro with nearly the name, or without a use, as advice."""
         running = self.failure.macros[0][0] if self.failure.macros else ""
         macro = next((m for m in self.named("macro") if m.name == running), None)
         blocks = re.findall(r"\*+([^\s:]+)", macro.params) if macro else []
-        near = nearest(self.found[0], blocks)
+        unused = [b for b in blocks if not self.sources.find(_INSERTED.format(b))]
+        only = unused[0] if len(unused) == 1 else None
+        near = nearest(self.found[0], blocks) or only
         return f'write name="{near}"; or ' if near else ""
 
     @property
