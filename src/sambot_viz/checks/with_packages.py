@@ -62,22 +62,19 @@ def _of_packages(targets: Targets, loaded: Sequence[Loaded]) -> list[Problem]:
     for package in targets.packages:
         of = (one.subject.robot for one in loaded if package in one.target.packages)
         found += built_wrongly(package, next(of, None))
-    foreign = _files_of_others(loaded)
     for one in loaded:
         every = (*one.around, *one.configs)
-        found += [p for p in every if _is_certain(p, one, loaded, foreign)]
+        own = _own_files(one) if len(loaded) > 1 else frozenset[str]()
+        found += [p for p in every if p.file in own or _is_certain(p, one, loaded)]
     return found
 
 
-def _files_of_others(loaded: Sequence[Loaded]) -> list[frozenset[str]]:
-    """Return the files that belong only to other robots, for each robot."""
-    if len(loaded) < 2:
-        return [frozenset()]
+def _own_files(one: Loaded) -> frozenset[str]:
+    """Return the files that belong only to this robot."""
     # Import late: few checks have several models.
     from sambot_viz.checks.around.ownership import ownership
 
-    both = ((one.subject.robot, one.target.packages) for one in loaded)
-    return [ownership(*each).foreign for each in both]
+    return ownership(one.subject.robot, one.target.packages).own
 
 
 def alone(targets: Targets, loaded: Sequence[Loaded]) -> list[Package]:
@@ -86,15 +83,10 @@ def alone(targets: Targets, loaded: Sequence[Loaded]) -> list[Package]:
     return [package for package in targets.packages if package not in covered]
 
 
-def _is_certain(
-    problem: Problem,
-    one: Loaded,
-    loaded: Sequence[Loaded],
-    foreign: Sequence[frozenset[str]],
-) -> bool:
+def _is_certain(problem: Problem, one: Loaded, loaded: Sequence[Loaded]) -> bool:
     """Return whether a problem of a shared file is the same for all its models.
 
-    The file may be for one of them. Models whose it cannot be do not count.
+    The file may be for one of them.
     """
     if problem.file is None or len(loaded) == 1:
         return True
@@ -107,8 +99,8 @@ def _is_certain(
             (p.code, p.place) == (problem.code, problem.place)
             for p in (*other.around, *other.configs)
         )
-        for other, others in zip(loaded, foreign, strict=True)
-        if owner in other.target.packages and problem.file not in others
+        for other in loaded
+        if owner in other.target.packages
     )
 
 

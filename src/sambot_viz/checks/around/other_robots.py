@@ -48,10 +48,10 @@ def of_this_robot(
 ) -> Iterator[Problem]:
     """Leave out findings in parameter files that may be for another robot.
 
-    Where neither a model nor a launch file says whose a file is, the names do: it
-    belongs to another robot when its name or a folder in its path is the name of
+    A file belongs to another robot when its name or a folder in its path is the name of
     another model of the package. It may do so when the parameters of another file fit
-    this robot. In all other cases, different sizes are only one clue.
+    this robot. In all other cases, different sizes are only one clue, unless a model or
+    a launch file says whose the file is.
     """
     found = list(problems)
     others = _other_robots(around) if any(p.code in _OF_ROBOT for p in found) else ()
@@ -67,11 +67,11 @@ def of_this_robot(
     for problem in found:
         # A name that one edit corrects is of this robot.
         is_slip = problem.code == "control-interface" and problem.edits
-        is_certain = is_slip or problem.file in around.ownership.own
+        is_ours = any(problem.file == file.shown for file in ours)
+        is_certain = is_slip or (is_ours and problem.file in around.ownership.own)
         names = None if is_certain else _OF_ROBOT.get(problem.code)
         if names and problem.file in read:
             fitting = (f for f in ours if (problem.code, f.shown) not in wrong)
-            is_ours = any(problem.file == file.shown for file in ours)
             if not is_ours or any(_has(file, names) for file in fitting):
                 continue
             named = own - others_words

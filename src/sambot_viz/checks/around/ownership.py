@@ -64,8 +64,9 @@ def ownership(robot: Robot, packages: Sequence[Package]) -> Ownership:
     if all(model in own for model in every):
         return Ownership()
     owners: _Owners = {}
-    shared = _shared(every, own)
-    for package, path in every:
+    beside = [*every, *_models_beside(packages)]
+    shared = _shared(beside, own)
+    for package, path in beside:
         shown = package.shown(path)
         robots = {_OWN if (package, path) in own else shown}
         for value in _PARAMETERS.findall(package.text(path) or ""):
@@ -90,6 +91,15 @@ def ownership(robot: Robot, packages: Sequence[Package]) -> Ownership:
             if is_settled and names and names.isdisjoint((_OWN, _UNKNOWN))
         ).difference(free),
     )
+
+
+def _models_beside(packages: Sequence[Package]) -> Iterator[tuple[Package, str]]:
+    """Yield the models in other packages of the workspace, which may use the files."""
+    workspace = packages[0].workspace
+    for package in workspace.given if workspace is not None else ():
+        if package not in packages:
+            for path in package.ending(*MODELS):
+                yield package, path
 
 
 def _own_models(
