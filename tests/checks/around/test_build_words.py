@@ -118,6 +118,7 @@ CASES = [
     (CFG, "script_dir", "script_dirs", "no script_dir in [develop]"),
     (CFG, "[develop]\n", "", "is in no section"),
     (SETUP, "from glob import glob", "import glob", "glob is a module here"),
+    (SETUP, "glob('", "glob.glob('", "glob is not the module here"),
     (SETUP, "from setuptools import setup\n", "", "setup is used here"),
     (SETUP, "robot.drive:main", "drive:main", "has no drive.py beside setup.py"),
     (SETUP, "share/robot/launch", "share/robto/launch", "installed into share/robto"),

@@ -53,7 +53,10 @@ from sambot_viz.checks.around.gazebo.world_values import (
 from sambot_viz.checks.around.joint_names import joints_of_controllers
 from sambot_viz.checks.around.launch_files.arguments import undeclared_arguments
 from sambot_viz.checks.around.launch_files.braces import missing_prefixes
-from sambot_viz.checks.around.launch_files.called_modules import called_modules
+from sambot_viz.checks.around.launch_files.called_modules import (
+    called_modules,
+    members_as_modules,
+)
 from sambot_viz.checks.around.launch_files.calls import (
     calls_without_argument,
     files_without_folder,
@@ -349,6 +352,7 @@ OF_FILES: tuple[Check, ...] = (
     wrong_imports,
     unknown_names,
     called_modules,
+    members_as_modules,
     misspelt_members,
     names_before_values,
     missing_commas,

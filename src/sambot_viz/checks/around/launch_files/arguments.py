@@ -25,9 +25,15 @@ def undeclared_arguments(around: Surroundings) -> Iterator[Problem]:
     """Report arguments whose use and declaration have different names."""
     files = arguments_of_files(around)
     parents = {file.name for file in files if file.includes}
-    given = {name for file in files for name in file.given}
-    every = given.union(*(file.declared for file in files))
+    every = {name for file in files for name in (*file.given, *file.declared)}
+    inside = [_includes(file, around, parents) for file in files]
     for file in files:
+        outer = (
+            other.given
+            for other, names in zip(files, inside, strict=True)
+            if names is None or file.name in names
+        )
+        given = set(file.given).union(*outer)
         # The arguments of an included file exist after the include.
         inner = _included(file, around, parents)
         known = every if inner is None else given.union(file.declared, inner)
@@ -77,6 +83,21 @@ def _undeclared(
             if is_misspelt(name, near) or near.endswith(f"_{name}")
             else f"declare {name}, or {instead}",
         )
+
+
+def _includes(
+    file: ArgumentsOfFile, around: Surroundings, parents: Collection[str]
+) -> set[str] | None:
+    """Return the names of the files that a launch file includes; None for any."""
+    if not isinstance(file.file, LaunchFile):
+        return None if file.includes else set()
+    names: set[str] = set()
+    for call in file.file.called("IncludeLaunchDescription"):
+        found = included_file(around, file.file, call)
+        if found is None or found.name in parents:
+            return None
+        names.add(found.name)
+    return names
 
 
 def _included(

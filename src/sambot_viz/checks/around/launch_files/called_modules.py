@@ -1,8 +1,9 @@
-"""Report calls of a Python module in place of the function in it."""
+"""Report a Python module in place of its member of the same name, or the reverse."""
 
 from __future__ import annotations
 
 import ast
+import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -47,6 +48,43 @@ def called_modules(around: Surroundings) -> Iterator[Problem]:
             )
             if alone:
                 break
+
+
+def members_as_modules(around: Surroundings) -> Iterator[Problem]:
+    """Report a member of what was imported from the module: glob.glob( … )."""
+    for file in python_files(around):
+        imported = [
+            each
+            for each in file.imports
+            if each.member == each.module == each.name and each.step in file.tree.body
+            if each.module in sys.stdlib_module_names
+        ]
+        for each in imported:
+            name, code, stops = each.name, *stopped(file)
+            uses = [
+                node
+                for node in ast.walk(file.tree)
+                if isinstance(node, ast.Attribute) and node.attr == name
+                if isinstance(node.value, ast.Name) and node.value.id == name
+            ]
+            others = len(uses) != _uses(name, file.tree)
+            for use in uses[: None if others else 1]:
+                yield Problem.at(
+                    file.place(use),
+                    "error",
+                    code,
+                    f"{name} is not the module here but its {name} (line "
+                    f"{each.step.lineno}), which has no {name}: {stops} stops with it",
+                    rewritten(use, file.shown, name)
+                    if others or len(each.step.names) > 1
+                    else rewritten(each.step, file.shown, f"import {name}"),
+                )
+
+
+def _uses(name: str, tree: ast.Module) -> int:
+    return sum(
+        isinstance(node, ast.Name) and node.id == name for node in ast.walk(tree)
+    )
 
 
 def _bound_otherwise(file: LaunchFile | SetupFile) -> set[str]:
