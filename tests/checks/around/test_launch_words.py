@@ -111,6 +111,18 @@ CASES = [
     (PYTHON, "default_value=", "default=", "no argument default, but default_value"),
     (PYTHON, "use_sim_time", "use_simtime", "but each has use_sim_time"),
     (PYTHON, "'--log-level',\n", "'--log-level'\n", "a comma is missing at the end"),
+    (
+        PYTHON,
+        "'--log-level',\n                'info',",
+        "'--log-level ' + other",
+        "the plus makes one word",
+    ),
+    (
+        PYTHON,
+        "[{'use_sim_time': True}, colours]",
+        "[os.path.join(share, 'rviz/colours.yaml', {'use_sim_time': True})]",
+        "this is a dict",
+    ),
     (PYTHON, "('a', 'b')", "['a', 'b']", "remappings are a list of tuples"),
     (PYTHON, "[('a', 'b')]", "('a', 'b')", "remappings are a list of tuples"),
     (PYTHON, "[{'use_sim_time': True}, colours]", "{'use_sim_time': True}", "a dict"),

@@ -61,6 +61,7 @@ from sambot_viz.checks.around.launch_files.calls import (
     calls_without_argument,
     files_without_folder,
     paths_from_the_root,
+    paths_of_no_text,
     sets_for_dicts,
 )
 from sambot_viz.checks.around.launch_files.choices import misspelt_truths, other_words
@@ -368,6 +369,7 @@ OF_FILES: tuple[Check, ...] = (
     substitutions_for_texts,
     substitutions_in_python,
     paths_from_the_root,
+    paths_of_no_text,
     files_without_folder,
     arguments_without_list,
     remappings_without_pairs,

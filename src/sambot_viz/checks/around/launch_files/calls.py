@@ -127,6 +127,48 @@ def paths_from_the_root(around: Surroundings) -> Iterator[Problem]:
                 )
 
 
+def paths_of_no_text(around: Surroundings) -> Iterator[Problem]:
+    """Report a dict or a list among the parts of a path, mostly a bracket too far."""
+    for launch in around.launches:
+        for call in launch.called("join"):
+            parts = call.node.args
+            if not ast.unparse(call.node.func).endswith("path.join"):
+                continue
+            odd = (p for p in parts if isinstance(p, (ast.Dict, ast.List, ast.Set)))
+            part = next(odd, None)
+            if part is None:
+                continue
+            kind = {ast.Dict: "a dict", ast.List: "a list"}.get(type(part), "a set")
+            yield Problem.at(
+                launch.place(part),
+                "error",
+                "launch-code",
+                f"os.path.join takes texts, and this is {kind}: ros2 launch stops",
+                _closed_before(part, call.node, launch),
+            )
+
+
+def _closed_before(part: ast.expr, join: ast.Call, launch: LaunchFile) -> Fix:
+    """Return the fix that closes a call before its last argument."""
+    hint = f"close the bracket of join before {ast.unparse(part)[:1]}"
+    lists = (node for node in ast.walk(launch.tree) if isinstance(node, ast.List))
+    if part is not join.args[-1] or len(join.args) < 2 or join.keywords:
+        return Fix(hint)
+    if not any(join in each.elts for each in lists):
+        return Fix(hint)
+    before, file = join.args[-2], launch.shown
+    behind, end = (
+        Place(file, node.end_lineno or 1, (node.end_col_offset or 0) + 1)
+        for node in (before, join)
+    )
+    last = Place(file, end.line, (end.column or 2) - 1)
+    return together(
+        hint,
+        write_between(behind, behind, ")", hint),
+        write_between(last, end, "", hint),
+    )
+
+
 def files_without_folder(around: Surroundings) -> Iterator[Problem]:
     """Report files that ros2 launch looks for in the working folder.
 

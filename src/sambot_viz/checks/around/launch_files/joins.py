@@ -20,6 +20,8 @@ _CODE = "launch-code"
 _WORDS = ("arguments", "cmd", "ros_arguments")
 OPTION = re.compile(r"-{1,2}[A-Za-z][\w-]*\s+\S.*")
 """An option with its value in one text."""
+_OPTION_ALONE = re.compile(r"(-{1,2}[A-Za-z][\w-]*)\s+")
+"""An option with the blank before its value."""
 _WORD = re.compile(r"(?:\$\([^()]*\)|\S)+")
 """A word of a command; a substitution is one, with its blanks."""
 _NUMBERS = re.compile(r"(-?[\d.]+\s+){3,}.*")
@@ -44,6 +46,8 @@ def several_words(around: Surroundings) -> Iterator[Problem]:
                     is_value, option = option[:1] == "-", launch.values.said(item) or ""
                     if isinstance(node, ast.Constant) and not whole:
                         yield from _no_word(node, launch, argument, is_value)
+                    elif isinstance(node, ast.BinOp) and not whole and not is_value:
+                        yield from _one_word(node, launch)
 
 
 def _no_program(launch: LaunchFile, call: Call) -> Iterator[Problem]:
@@ -95,6 +99,25 @@ def _no_word(
             "it knows no such option",
             rewritten(node, launch.shown, words),
         )
+
+
+def _one_word(node: ast.BinOp, launch: LaunchFile) -> Iterator[Problem]:
+    """Report an option that a plus joins with its value: '-d ' + path."""
+    left = node.left
+    text = left.value if isinstance(left, ast.Constant) else None
+    option = _OPTION_ALONE.fullmatch(text) if isinstance(text, str) else None
+    if option is None or not isinstance(node.op, ast.Add):
+        return
+    begin, end = launch.place(left), launch.place(node.right)
+    right = f"'{option[1]}', "
+    yield Problem.at(
+        begin,
+        "warning",
+        _CODE,
+        f"the plus makes one word of {option[1]} and its value, which launch does not "
+        "take apart: the program knows no such option",
+        write_between(begin, end, right, f"write {right}… with a comma"),
+    )
 
 
 def joined_texts(around: Surroundings) -> Iterator[Problem]:
