@@ -138,12 +138,12 @@ def paths_of_no_text(around: Surroundings) -> Iterator[Problem]:
             part = next(odd, None)
             if part is None:
                 continue
-            kind = {ast.Dict: "a dict", ast.List: "a list"}.get(type(part), "a set")
+            kind = type(part).__name__.lower()
             yield Problem.at(
                 launch.place(part),
                 "error",
                 "launch-code",
-                f"os.path.join takes texts, and this is {kind}: ros2 launch stops",
+                f"os.path.join takes texts, and this is a {kind}: ros2 launch stops",
                 _closed_before(part, call.node, launch),
             )
 
