@@ -72,10 +72,10 @@ def test_what_a_macro_computes_has_no_edits(tmp_path: Path) -> None:
     model = tmp_path / "r.urdf.xacro"
     model.write_text(
         '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
-        '<xacro:property name="end" value="whel"/>\n'
+        '<xacro:property name="end" value="el"/>\n'
         '<link name="base"/><link name="wheel"/>\n'
         '<joint name="j" type="fixed"><parent link="base"/>'
-        '<child link="${end}"/></joint></robot>'
+        '<child link="wh${end}"/></joint></robot>'
     )
     (problem,) = check(model)
     assert problem.code == "joint-child-unknown"

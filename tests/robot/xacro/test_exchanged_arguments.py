@@ -76,3 +76,19 @@ def test_other_calls_are_left_alone(call: str, tmp_path: Path) -> None:
     model.write_text(f"{HEAD}{left}{WHEEL}{call}\n</robot>\n")
 
     assert not check(model)
+
+
+def test_a_macro_may_name_the_sides_of_a_box_otherwise(tmp_path: Path) -> None:
+    model = tmp_path / "robot.urdf.xacro"
+    sizes = "".join(
+        f'<xacro:property name="body_{name}" value="{value}"/>\n'
+        for name, value in (("length", "0.4"), ("width", "0.2"))
+    )
+    macro = (
+        '<xacro:macro name="box" params="width depth"><link name="base"><visual>'
+        '<geometry><box size="${width} ${depth} 0.1"/></geometry></visual></link>'
+        "</xacro:macro>\n"
+    )
+    call = '<xacro:box width="${body_length}" depth="${body_width}"/>\n'
+    model.write_text(f"{HEAD}{sizes}{macro}{call}</robot>\n")
+    assert "xacro-arguments-exchanged" not in {p.code for p in check(model)}

@@ -25,6 +25,7 @@ _SHORT = {
     "w": ("width",),
 }
 """One-letter parameter → words that it stands for."""
+_OF_BOX = frozenset({"depth", "height", "length", "width"})
 
 _Kind = Literal["word", "number"]
 
@@ -118,6 +119,10 @@ def _of_names(call: _MacroCall) -> Problem | None:
         first, second = (set(value[1].lower().split("_")) for value in values if value)
         own, its = (set(_SHORT.get(n, (n.lower(),))) for n in (one, other))
         if own & second and not own & first and not its & second:
+            foreign = _OF_BOX.difference(its, map(str.lower, names))
+            if own & second & _OF_BOX and first & foreign:
+                # The call names the sides of a box otherwise than the macro does.
+                continue
             why = f"{values[1][1]} is a {min(own & second)}"
             severity = "warning" if its & first else "info"
             return call.problem(severity, one, other, why)

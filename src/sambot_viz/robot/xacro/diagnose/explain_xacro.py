@@ -63,7 +63,8 @@ def explain_xacro(failure: XacroFailure, main_file: str) -> list[Problem]:
     causes = (source_slip, broken_yaml, wrong_value, placeholder)
     lines = {failed.at.line, *(call.line for call in failed.failure.calls)}
     for call in exchanged_arguments(failed.sources):
-        if call.line in lines:
+        # A name that may be of another convention breaks no expansion.
+        if call.line in lines and call.severity != "info":
             return [replace(call, severity="error")]
     cause = next((p for p in (find(failed) for find in causes) if p is not None), None)
     if cause is not None:
