@@ -284,8 +284,8 @@ class FailedExpansion:
                 names = re.findall(r"(?m)^\s*(?:- )?([\w-]+)\s*:", source.text)
                 keys.update(dict.fromkeys(names))
         wrong, near = self.found[0], nearest(self.found[0], keys)
-        if near is None:
-            return f"{did_you_mean(wrong, keys)}; or add it to the file"
+        if near is None or not is_one_slip(wrong, near):
+            return f"{did_you_mean(wrong, keys)}; or add {wrong} to the file"
         return f"write {near}, or add {wrong} to the file"
 
     @property
