@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from sambot_viz.checks.around.launch_files.declarations import (
     ArgumentsOfFile,
@@ -26,23 +26,22 @@ def undeclared_arguments(around: Surroundings) -> Iterator[Problem]:
     files = arguments_of_files(around)
     parents = {file.name for file in files if file.includes}
     every = {name for file in files for name in (*file.given, *file.declared)}
-    inside = [_includes(file, around, parents) for file in files]
-    for file in files:
+    included = [_included(file, around, parents) for file in files]
+    for file, inner in zip(files, included, strict=True):
         outer = (
             other.given
-            for other, names in zip(files, inside, strict=True)
+            for other, names in zip(files, included, strict=True)
             if names is None or file.name in names
         )
         given = set(file.given).union(*outer)
         # The arguments of an included file exist after the include.
-        inner = _included(file, around, parents)
-        known = every if inner is None else given.union(file.declared, inner)
+        known = every if inner is None else given.union(file.declared, *inner.values())
         used: dict[str, list[Place]] = {}
         for name, place in file.used if file.certain else ():
             if name and name not in known:
                 used.setdefault(name, []).append(place)
         for name, places in used.items():
-            is_first = bool(inner) and _is_first(file, around)
+            is_first = any((inner or {}).values()) and _is_first(file, around)
             yield from _undeclared(name, places, file, around, is_first)
 
 
@@ -85,25 +84,10 @@ def _undeclared(
         )
 
 
-def _includes(
-    file: ArgumentsOfFile, around: Surroundings, parents: Collection[str]
-) -> set[str] | None:
-    """Return the names of the files that a launch file includes; None for any."""
-    if not isinstance(file.file, LaunchFile):
-        return None if file.includes else set()
-    names: set[str] = set()
-    for call in file.file.called("IncludeLaunchDescription"):
-        found = included_file(around, file.file, call)
-        if found is None or found.name in parents:
-            return None
-        names.add(found.name)
-    return names
-
-
 def _included(
     file: ArgumentsOfFile, around: Surroundings, parents: Collection[str]
-) -> set[str] | None:
-    """Return the arguments of the included files; None where one is unknown.
+) -> Mapping[str, Collection[str]] | None:
+    """Return the included files with their arguments; None where one is unknown.
 
     Args:
         file: the launch file.
@@ -112,14 +96,14 @@ def _included(
             those of several files.
     """
     if not isinstance(file.file, LaunchFile):
-        return None if file.includes else set()
-    names: set[str] = set()
+        return None if file.includes else {}
+    found: dict[str, set[str]] = {}
     for call in file.file.called("IncludeLaunchDescription"):
         inner = included_file(around, file.file, call)
         if inner is None or inner.name in parents:
             return None
-        names.update(inner.arguments)
-    return names
+        found.setdefault(inner.name, set()).update(inner.arguments)
+    return found
 
 
 def _is_first(file: ArgumentsOfFile, around: Surroundings) -> bool:
