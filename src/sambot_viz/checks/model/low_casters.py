@@ -46,26 +46,31 @@ def low_casters(subject: Subject) -> Iterator[Problem]:
     """
     robot = subject.robot
     found = _floor(robot)
-    if found is None or any(cause for rule in _CAUSES for cause in rule(subject)):
+    if found is None:
         return
     floor, height, wheels = found
     carriers = {j.parent for j in robot.joints.values() if j.child in wheels}
-    for joint in robot.joints.values():
-        if not CASTER.search(joint.child) or joint.child in wheels:
-            continue
-        low = min(lows(robot, joint.child), default=floor)
-        if floor - low <= max(_LEAST, _SHARE * height):
-            continue
+    casters = (
+        (joint, floor - min(lows(robot, joint.child), default=floor))
+        for joint in robot.joints.values()
+        if CASTER.search(joint.child) and joint.child not in wheels
+    )
+    least = max(_LEAST, _SHARE * height)
+    deep = [(joint, depth) for joint, depth in casters if depth > least]
+    # A right robot runs none of the other rules a second time.
+    if not deep or any(cause for rule in _CAUSES for cause in rule(subject)):
+        return
+    for joint, depth in deep:
         yield guess(
             joint.origin.place or joint.place,
             "wheel-not-on-ground",
-            f"{joint.child} ends {floor - low:.3g} m below the floor on which "
+            f"{joint.child} ends {depth:.3g} m below the floor on which "
             f"{listed(wheels)} stand: the robot is tilted",
-            _relative_to_parent(robot, joint, floor - low)
+            _relative_to_parent(robot, joint, depth)
             or Fix(
-                f"raise the origin of joint {joint.name} by {floor - low:.3g} m, or "
+                f"raise the origin of joint {joint.name} by {depth:.3g} m, or "
                 "correct the radius",
-                _raised(joint, floor - low) if joint.parent in carriers else (),
+                _raised(joint, depth) if joint.parent in carriers else (),
             ),
             {"height", "name"},
         )
